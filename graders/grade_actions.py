@@ -31,6 +31,7 @@ from roslings.capabilities.actions.act import (
     taking,
     timed_feedback,
 )
+from roslings.capabilities.actions.contract import ActionWords
 from roslings.capabilities.actions.demands import (
     end_so,
     give_up,
@@ -39,6 +40,7 @@ from roslings.capabilities.actions.demands import (
     send_goal,
     show_each,
 )
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.course import lab
 from roslings.course.files import written
 from roslings.experiment import Scene, experiment
@@ -65,14 +67,15 @@ from roslings.judge import (
 CARD = lab("actions").card
 SERVER, CLIENT = CARD.node("drive_server"), CARD.node("drive_client")
 CMD_VEL, ODOM = SERVER.publishes[0], SERVER.subscribes[0]
-DRIVE_TO, ORDER = SERVER.performs[0], CLIENT.orders[0]
+DRIVE_TO, ORDER = SERVER.of(ActionWords).performs[0], CLIENT.of(ActionWords).orders[0]
 FEEDBACK = written(DRIVE_TO.feedback, DRIVE_TO.action)
 CANCELS_WITHIN_S = written(DRIVE_TO.cancels_within_s, DRIVE_TO.action)
 GIVES_UP = written(CLIENT.gives_up, CLIENT.node)
 GOAL = DRIVE_TO.goal
 CENTRE = {"x": 3.0, "y": 2.5, "tolerance": 0.1}
-ASKED = {parameter.name: float(parameter.tried) for parameter in CLIENT.parameters}
-USUAL = {parameter.name: float(parameter.default) for parameter in CLIENT.parameters}
+SETTINGS = CLIENT.of(ParameterWords).parameters
+ASKED = {parameter.name: float(parameter.tried) for parameter in SETTINGS}
+USUAL = {parameter.name: float(parameter.default) for parameter in SETTINGS}
 TELLS = ("1.87", "1.71", "1.52", "1.38", "1.23", "0.95", "0.64", "0.41", "0.26", "0.12")
 ELAPSED_S = 7.268
 MORE_DIGITS = 0.0013

@@ -5,6 +5,7 @@ program bags that nobody could know; checks read what was seen and run nothing.
 """
 
 from graders.black_box.act import Giver
+from graders.black_box.contract import BagWords
 from graders.black_box.demands import (
     be_of_its_own_rover,
     find,
@@ -30,8 +31,8 @@ from roslings.judge import (
 )
 
 CARD = lab("black-box").card
-READER = written(CARD.reads_bags, CARD.package)
-DIAGNOSIS = written(CARD.diagnosis, CARD.package)
+READER = written(CARD.of(BagWords).reads_bags, CARD.package)
+DIAGNOSIS = written(CARD.of(BagWords).diagnosis, CARD.package)
 (FILE,) = CARD.documents
 FIRST, OTHER = READER.storages
 SPLIT_AFTER_S = 4.0

@@ -4,8 +4,9 @@ The numbers, names and points stand in labs/bring-up/card.yaml. Experiments run 
 alone and by the launch file, set parameters, kill, and watch; checks read what was seen.
 """
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 from roslings.capabilities.launch.act import (
     ask_for_arguments,
@@ -13,7 +14,7 @@ from roslings.capabilities.launch.act import (
     launched,
     values_file,
 )
-from roslings.capabilities.launch.contract import NamespaceContract
+from roslings.capabilities.launch.contract import LaunchWords, NamespaceContract
 from roslings.capabilities.launch.demands import (
     be_alike,
     come_back,
@@ -27,6 +28,7 @@ from roslings.capabilities.launch.demands import (
     win_over_its_section,
 )
 from roslings.capabilities.parameters.act import list_parameters
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.parameters.demands import declare_its_parameters
 from roslings.capabilities.parameters.obeying import (
     FIRST,
@@ -38,7 +40,8 @@ from roslings.capabilities.parameters.record import Values
 from roslings.capabilities.parameters.setting import Setter, read_all, setting
 from roslings.capabilities.topics.act import Teller
 from roslings.capabilities.topics.demands import have_rate
-from roslings.capabilities.topics.relay import Shown, answer_each_once, hold_its_fields
+from roslings.capabilities.topics.full import full_values
+from roslings.capabilities.topics.relay import RelayedValue, answer_each_once, hold_its_fields
 from roslings.course import lab
 from roslings.course.contract import Plain
 from roslings.course.files import written
@@ -63,21 +66,23 @@ from roslings.judge import (
     stay_up,
     well_formed,
 )
-from roslings.judge.values import field_of
+from roslings.judge.values import Fields, as_number, field_of, number_of
 
 CARD = lab("bring-up").card
 LIMITER, BEACON = CARD.node("speed_limiter"), CARD.node("beacon")
 WANTED, ALLOWED = LIMITER.subscribes[0], LIMITER.publishes[0]
 BEAT = BEACON.publishes[0]
-MAX, SLOW = LIMITER.parameter("max_speed"), LIMITER.parameter("slow_speed")
-CAREFUL = LIMITER.parameter("careful")
-NAME, RATE = BEACON.parameter("rover_name"), BEACON.parameter("beat_rate")
-LAUNCH = written(CARD.launch, "the package")
+MAX, SLOW, CAREFUL = LIMITER.of(ParameterWords).named("max_speed", "slow_speed", "careful")
+NAME, RATE = BEACON.of(ParameterWords).named("rover_name", "beat_rate")
+LAUNCH = written(CARD.of(LaunchWords).launch, "the package")
 FILE, CAREFULLY, SECOND = LAUNCH.arguments
-SPEED = Shown(LIMITER, "linear.x", ALLOWED, "linear.x")
-TURN = Shown(LIMITER, "angular.z", ALLOWED, "angular.z")
-FORWARD, BACKWARD, SLOWLY = 2.0, -2.0, 0.07
+FORWARD_X = "linear.x"
+OTHERS = ("linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
+FORWARD, BACKWARD, SLOWLY, SLOWLY_BACK = 2.0, -2.0, 0.07, -0.06
 """Metres a second: faster than any limit, both ways, and slower than the usual one."""
+
+NO_NUMBER, ENDLESS = math.nan, math.inf
+AT_FIRST = (FORWARD, BACKWARD, SLOWLY, SLOWLY_BACK, 0.0, ENDLESS, -ENDLESS, NO_NUMBER, SLOWLY)
 
 SAID = [
     BEAT.model_copy(
@@ -104,7 +109,7 @@ FINE, MUCH = 0.01, 4.0
 
 
 @dataclass(frozen=True)
-class Step:
+class ParameterRequest:
     """One request to set parameters, and the check that it is for."""
 
     part: str
@@ -118,7 +123,7 @@ class Step:
             setter.set_one(self.part, name, value)
 
 
-def steps() -> list[Step]:
+def steps() -> list[ParameterRequest]:
     """All requests to the limiter; each begins where the one before has ended.
 
     A value of the other parameter is chosen so that only one rule of the card speaks.
@@ -127,53 +132,66 @@ def steps() -> list[Step]:
     least, most = float(MAX.least or 0), float(MAX.most or 0)
     slowest, top = float(SLOW.least or 0), float(SLOW.most or 0)
     return [
-        Step("live", {m: MAX.tried}),
-        Step("live", {c: CAREFUL.tried}),
-        Step("live", {s: SLOW.tried}),
-        Step("live", {c: CAREFUL.default}),
-        Step("ranges", {s: top}),
-        Step("ranges", {s: round(top + FINE, 3)}),
-        Step("ranges", {m: most}),
-        Step("ranges", {m: round(most + FINE, 3)}),
-        Step("ranges", {s: slowest}),
-        Step("ranges", {s: round(slowest - FINE, 3)}),
-        Step("ranges", {m: least}),
-        Step("ranges", {m: round(least - FINE, 3)}),
-        Step("types", {m: 1}),
-        Step("types", {m: "fast"}),
-        Step("types", {c: "yes"}),
-        Step("rule", {m: 0.6}),
-        Step("rule", {s: 0.4}),
-        Step("rule", {m: 0.3}),
-        Step("rule", {m: 0.4}),
-        Step("rule", {s: 0.45}),
-        Step("together", {s: 0.45, m: 0.9}),
-        Step("together", {m: 0.15, s: 0.12}),
-        Step("together", {c: False, m: 0.2}),
-        Step("atomic", {c: True, m: most + MUCH}),
-        Step("atomic", {m: 0.7, s: top + MUCH}),
-        Step("atomic", {c: True, s: 0.3}),
-        Step("atomic", {m: 0.3, s: 0.4}),
+        ParameterRequest("live", {m: MAX.tried}),
+        ParameterRequest("live", {c: CAREFUL.tried}),
+        ParameterRequest("live", {s: SLOW.tried}),
+        ParameterRequest("live", {c: CAREFUL.default}),
+        ParameterRequest("ranges", {s: top}),
+        ParameterRequest("ranges", {s: round(top + FINE, 3)}),
+        ParameterRequest("ranges", {m: most}),
+        ParameterRequest("ranges", {m: round(most + FINE, 3)}),
+        ParameterRequest("ranges", {s: slowest}),
+        ParameterRequest("ranges", {s: round(slowest - FINE, 3)}),
+        ParameterRequest("ranges", {m: least}),
+        ParameterRequest("ranges", {m: round(least - FINE, 3)}),
+        ParameterRequest("ranges", {m: ENDLESS}),
+        ParameterRequest("ranges", {s: NO_NUMBER}),
+        ParameterRequest("ranges", {m: NO_NUMBER}),
+        ParameterRequest("ranges", {m: most}),
+        ParameterRequest("types", {m: 1}),
+        ParameterRequest("types", {m: "fast"}),
+        ParameterRequest("types", {c: "yes"}),
+        ParameterRequest("rule", {m: 0.6}),
+        ParameterRequest("rule", {s: 0.4}),
+        ParameterRequest("rule", {m: 0.3}),
+        ParameterRequest("rule", {m: 0.4}),
+        ParameterRequest("rule", {s: 0.45}),
+        ParameterRequest("together", {s: 0.45, m: 0.9}),
+        ParameterRequest("together", {m: 0.15, s: 0.12}),
+        ParameterRequest("together", {c: False, m: 0.2}),
+        ParameterRequest("atomic", {c: True, m: most + MUCH}),
+        ParameterRequest("atomic", {m: 0.7, s: top + MUCH}),
+        ParameterRequest("atomic", {c: True, s: 0.3}),
+        ParameterRequest("atomic", {m: 0.3, s: 0.4}),
     ]
 
 
-def limited(values: Values, command: dict[str, Any]) -> float | None:
+def limited(values: Values, command: Fields) -> float | None:
     """The speed that the limiter's parameters allow, as it says them itself."""
     limit = values.get(SLOW.name if values.get(CAREFUL.name) else MAX.name)
-    wanted = field_of(command, "linear.x")
-    if isinstance(limit, bool | str) or limit is None:
+    if isinstance(limit, bool | str) or limit is None or not math.isfinite(limit):
         return None
-    return float(max(-limit, min(wanted, limit)))
+    speed = number_of(command, FORWARD_X)
+    return 0.0 if math.isnan(speed) else float(max(-limit, min(speed, limit)))
 
 
-def unchanged(values: Values, command: dict[str, Any]) -> float:
-    """What the limiter only passes on."""
-    return float(field_of(command, "angular.z"))
+def relayed(field: str) -> RelayedValue:
+    """A field of the command, on its way through the limiter."""
+    return RelayedValue(LIMITER, field, ALLOWED, field)
+
+
+SPEED = relayed(FORWARD_X)
+
+
+def unchanged(place: RelayedValue) -> Callable[[Values, Fields], float]:
+    """What the limiter only passes on; a field that nobody filled is 0."""
+    return lambda values, command: as_number(field_of(command, place.heard)) or 0.0
 
 
 def command(scene: Scene, speed: float) -> dict[str, float]:
-    """A command with a turn that nobody can know."""
-    return {"linear.x": speed, "angular.z": scene.between(1.0, 2.0)}
+    """A command with a number in each other field that nobody can know."""
+    others = full_values(WANTED.type, scene.between, begins_below_zero=speed < 0)
+    return {**others, FORWARD_X: speed}
 
 
 def other_values(scene: Scene) -> dict[str, Plain]:
@@ -211,7 +229,7 @@ def limiting(scene: Scene) -> None:
     with scene.run(LIMITER) as process, setting(scene, process, LIMITER) as setter:
         list_parameters(scene, LIMITER)
         teller = Teller(scene, process, WANTED, ALLOWED)
-        for speed in (FORWARD, BACKWARD, SLOWLY):
+        for speed in AT_FIRST:
             teller.tell(command(scene, speed))
         if setter is None:
             return
@@ -335,7 +353,7 @@ def test_limits(limiting: ExperimentView) -> None:
     """With the defaults, it cuts the speed to {MAX.default} m/s, both ways."""
     limiting.must(
         act_by_its_values(SPEED, FIRST, limited),
-        act_by_its_values(TURN, FIRST, unchanged),
+        *(act_by_its_values(each, FIRST, unchanged(each)) for each in map(relayed, OTHERS)),
         answer_each_once(SPEED),
     )
 

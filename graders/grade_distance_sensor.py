@@ -5,14 +5,14 @@ student's nodes, let echoes come back from obstacles, and watch; checks read wha
 """
 
 import math
-from typing import Any
 
 from roslings.capabilities.launch.act import launched
+from roslings.capabilities.launch.contract import LaunchWords
 from roslings.capabilities.launch.demands import start_all
 from roslings.capabilities.topics.act import Teller
 from roslings.capabilities.topics.demands import have_rate
 from roslings.capabilities.topics.relay import (
-    Shown,
+    RelayedValue,
     answer_each_once,
     carry_its_time,
     hold_its_fields,
@@ -42,12 +42,13 @@ from roslings.judge import (
     stay_up,
     well_formed,
 )
+from roslings.judge.values import Fields, number_of
 
 CARD = lab("distance-sensor").card
 SENSOR, SUBSCRIBER = CARD.node("distance_sensor"), CARD.node("distance_subscriber")
 ECHO, DISTANCE = SENSOR.subscribes[0], SENSOR.publishes[0]
 HEARD, OBSTACLE = SUBSCRIBER.subscribes[0], SUBSCRIBER.publishes[0]
-LAUNCH = written(CARD.launch, "the package")
+LAUNCH = written(CARD.of(LaunchWords).launch, "the package")
 SPEED = SENSOR.constant("speed_of_sound")
 NEAREST, FARTHEST = (float(DISTANCE.fields[name]) for name in ("min_range", "max_range"))
 NEAR, CLEAR = SUBSCRIBER.constant("near"), SUBSCRIBER.constant("clear")
@@ -56,8 +57,8 @@ BESIDE = (0.005, 0.03)
 """So many metres beside a limit: just beyond it, and beyond doubt."""
 
 SILENCE_S = 0.6
-MEASURED = Shown(SENSOR, "data", DISTANCE, "range")
-WARNED = Shown(SUBSCRIBER, "range", OBSTACLE, "data", remembers=True)
+MEASURED = RelayedValue(SENSOR, "data", DISTANCE, "range")
+WARNED = RelayedValue(SUBSCRIBER, "range", OBSTACLE, "data", remembers=True)
 
 
 # --- what is told, and what is right -----------------------------------------------------------
@@ -77,20 +78,20 @@ def echoes(scene: Scene) -> list[float]:
     return [2 * each / SPEED for each in metres]
 
 
-def range_after(echo: dict[str, Any]) -> float:
+def range_after(echo: Fields) -> float:
     """What the sensor then measures: metres, or an infinity where that is out of range."""
-    metres = float(echo["data"]) * SPEED / 2
+    metres = number_of(echo, "data") * SPEED / 2
     if metres < NEAREST:
         return -INFINITY
     return INFINITY if metres > FARTHEST else metres
 
 
-def usual_range(number: int, echo: dict[str, Any]) -> float | None:
+def usual_range(number: int, echo: Fields) -> float | None:
     """The range after an echo, where it is a distance."""
     return range_after(echo) if math.isfinite(range_after(echo)) else None
 
 
-def odd_range(number: int, echo: dict[str, Any]) -> float | None:
+def odd_range(number: int, echo: Fields) -> float | None:
     """The range after an echo, where it is none."""
     return None if math.isfinite(range_after(echo)) else range_after(echo)
 
@@ -130,9 +131,9 @@ def warning(kind: str, number: int) -> bool | None:
     return obstacle if step == kind else None
 
 
-def millimetres(distance: dict[str, Any]) -> list[str]:
+def millimetres(distance: Fields) -> list[str]:
     """The numbers that may be written for a distance: rounded, or cut off."""
-    metres = float(distance["range"])
+    metres = number_of(distance, "range")
     whole = round(metres * 1000) if math.isfinite(metres) else None
     return [] if whole is None else [str(whole), str(whole - 1), str(whole + 1)]
 

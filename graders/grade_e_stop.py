@@ -6,6 +6,7 @@ nodes between an operator, a button and motors of ours; checks read what was see
 
 from graders.e_stop.act import (
     FAR_WITHIN_S,
+    DrawnCommands,
     Far,
     Pressing,
     Roads,
@@ -19,6 +20,7 @@ from graders.e_stop.act import (
     two_computers,
     watching,
 )
+from graders.e_stop.contract import GuardWords, HostsWords
 from graders.e_stop.demands import (
     be_reached,
     drive,
@@ -29,6 +31,10 @@ from graders.e_stop.demands import (
     tell_each_press,
     tell_why,
 )
+from graders.e_stop.orders import ALWAYS
+from graders.e_stop.walked import keep_all_reasons
+from graders.e_stop.walking import walk_along, with_drawn
+from roslings.capabilities.qos.contract import QosWords
 from roslings.capabilities.qos.demands import (
     ask_for,
     keep_for_late_joiners,
@@ -36,6 +42,7 @@ from roslings.capabilities.qos.demands import (
     tell_late_joiners_the_truth,
 )
 from roslings.capabilities.services.act import Asker
+from roslings.capabilities.services.contract import ServiceWords
 from roslings.capabilities.services.demands import (
     answer_each,
     answer_in_time,
@@ -44,7 +51,7 @@ from roslings.capabilities.services.demands import (
     serve_their_types,
 )
 from roslings.capabilities.topics.demands import have_rate
-from roslings.course import lab
+from roslings.course import lab, written
 from roslings.experiment import Scene, experiment
 from roslings.judge import (
     ExperimentView,
@@ -69,16 +76,20 @@ from roslings.judge import (
 
 CARD = lab("e-stop").card
 BUTTON, GUARD = CARD.node("e_stop_button"), CARD.node("guard")
-E_STOP, PRESS = BUTTON.publishes[0], BUTTON.serves[0]
-LATCHED = BUTTON.offers[0]
+E_STOP, PRESS = BUTTON.publishes[0], BUTTON.of(ServiceWords).serves[0]
+LATCHED = BUTTON.of(QosWords).offers[0]
 RELEASED, PRESSED = PRESS.answers
 HEARD, COMMANDS = GUARD.subscribes
-CMD_VEL, STEADY = GUARD.publishes[0], GUARD.offers[0]
-ALIVE, IN_TIME = GUARD.asks
-STOPS, HOSTS = GUARD.stops, CARD.hosts
+CMD_VEL, STEADY = GUARD.publishes[0], GUARD.of(QosWords).offers[0]
+ALIVE, IN_TIME = GUARD.of(QosWords).asks
+STOPS = GUARD.of(GuardWords).stops
+DRAWN = GUARD.of(GuardWords).walks - len(ALWAYS)
+HOSTS = written(CARD.of(HostsWords).hosts, "the package")
 ROADS = Roads(commands=COMMANDS, button=HEARD, motors=CMD_VEL, alive=ALIVE)
-DEADLINE_S = IN_TIME.deadline_s
+DEADLINE_S = written(IN_TIME.deadline_s, IN_TIME.topic)
 IN_A_ROW = 20
+IN_ALL_ORDERS = (RELEASED, PRESSED, PRESSED, RELEASED, RELEASED)
+"""Each answer after the other one, and after itself."""
 TWICE = 2
 """Silences: the second one brings events of which there were two before."""
 
@@ -96,7 +107,7 @@ def pressing(scene: Scene) -> None:
         asker = Asker(scene, process, BUTTON)
         presses = Pressing(scene, PRESS, E_STOP)
         presses.join("the start", True)
-        presses.press_each(PRESS.answers)
+        presses.press_each(IN_ALL_ORDERS)
         asker.ask_in_a_row(PRESS, PRESS.answers, IN_A_ROW)
 
 
@@ -113,7 +124,8 @@ def guarding(scene: Scene) -> None:
     plans = operator_plan(ROADS), button_plan(ROADS), motors_plan(ROADS)
     with beside(scene, "operator", *plans) as operator:
         operator.tell(say={"data": RELEASED.state})
-        with scene.run(GUARD), watching(scene, operator, operator) as guard:
+        commands = DrawnCommands(scene, ROADS.commands)
+        with scene.run(GUARD), watching(scene, operator, operator, commands) as guard:
             if not guard.drives("late", "when the guard starts after the stop was released"):
                 return
             press = {"data": PRESSED.state}
@@ -131,12 +143,13 @@ def guarding(scene: Scene) -> None:
 @experiment
 def losing(scene: Scene) -> None:
     """The guard without a button, with one, with one that hangs, and with one that ended."""
+    commands = DrawnCommands(scene, ROADS.commands)
     with (
         beside(scene, "operator", operator_plan(ROADS), motors_plan(ROADS)) as operator,
         scene.run(GUARD),
-        watching(scene, operator, operator) as guard,
+        watching(scene, operator, operator, commands) as guard,
     ):
-        operator.tell(drive={"linear.x": 0.5})
+        operator.tell(drive=commands.another())
         guard.rests("still", "while no button was ever there")
         with beside(scene, "button", button_plan(ROADS)) as button:
             guard.hears(button)
@@ -154,6 +167,24 @@ def losing(scene: Scene) -> None:
         with beside(scene, "button", button_plan(ROADS)) as button:
             button.tell(say={"data": RELEASED.state})
             guard.drives("lost, again", "when the button's program is there again")
+
+
+@experiment
+def in_any_order(scene: Scene) -> None:
+    """The guard: pressed and without commands at once, then as nobody knows before."""
+    walk_along(scene, GUARD, ROADS, STOPS, *with_drawn(ALWAYS[0], scene.seed, DRAWN))
+
+
+@experiment
+def button_by_button(scene: Scene) -> None:
+    """The guard: a press outlasts other reasons."""
+    walk_along(scene, GUARD, ROADS, STOPS, ALWAYS[1])
+
+
+@experiment
+def two_buttons(scene: Scene) -> None:
+    """The guard with a second button, which comes and goes."""
+    walk_along(scene, GUARD, ROADS, STOPS, ALWAYS[2])
 
 
 @experiment
@@ -177,7 +208,7 @@ def apart(scene: Scene) -> None:
             far.call(RELEASED)
             with (
                 running_on(scene, hosts.second, GUARD),
-                watching(scene, operator, rover) as guard,
+                watching(scene, operator, rover, DrawnCommands(scene, ROADS.commands)) as guard,
             ):
                 if not far.finds_the_guard(COMMANDS):
                     return
@@ -331,6 +362,15 @@ def test_lost(losing: ExperimentView) -> None:
         drive(CMD_VEL, "lost, again", deadline_s=DEADLINE_S, again=True),
         stop_for(CMD_VEL, "lost", STOPS["lost"].within_s),
     )
+
+
+@check(needs=["pressed", "silent", "lost"])
+def test_orders(
+    in_any_order: ExperimentView, button_by_button: ExperimentView, two_buttons: ExperimentView
+) -> None:
+    """Reasons that hold at once, in any order: the rover drives when none is left."""
+    for walks in (in_any_order, button_by_button, two_buttons):
+        walks.must(keep_all_reasons(CMD_VEL, STOPS, DEADLINE_S))
 
 
 @check(needs=["pressed", "silent", "lost"])

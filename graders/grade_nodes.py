@@ -5,6 +5,7 @@ student's node and watch; checks read what was seen and run nothing.
 """
 
 from roslings.capabilities.parameters.act import await_publishers, list_parameters
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.parameters.demands import (
     carry_topic_along,
     follow_its_parameter,
@@ -39,7 +40,7 @@ from roslings.judge import (
 CARD = lab("nodes").card
 NODE = CARD.node("minimal_publisher")
 STATUS = NODE.publishes[0]
-PERIOD = NODE.parameters[0]
+PERIOD = NODE.of(ParameterWords).parameters[0]
 QUICK = STATUS.at(hz=1 / float(PERIOD.tried))
 FIRST, SECOND = NODE.other_names
 

@@ -41,6 +41,7 @@ from roslings.capabilities.camera.demands import (
     tell_of_trouble,
 )
 from roslings.capabilities.parameters.act import list_parameters
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.parameters.demands import declare_its_parameters
 from roslings.capabilities.topics.demands import have_rate
 from roslings.capabilities.topics.relay import carry_its_time, hold_its_fields
@@ -75,7 +76,8 @@ CARD = lab("pi-camera").card
 CAMERA, FINDER = CARD.node("camera"), CARD.node("ball_finder")
 IMAGE, SEEN = CAMERA.publishes[0], FINDER.subscribes[0]
 BALL, DRAWN = FINDER.publishes
-BRIGHTNESS, HUE = CAMERA.parameter("brightness"), FINDER.parameter("ball_hue")
+BRIGHTNESS = CAMERA.of(ParameterWords).parameter("brightness")
+HUE = FINDER.of(ParameterWords).parameter("ball_hue")
 NEUTRAL, LEVELS = CAMERA.constant("neutral_brightness"), CAMERA.constant("levels")
 SMALLEST, WITHIN = FINDER.constant("smallest_ball"), FINDER.constant("within")
 WINDOW = FINDER.constant("hue_window")

@@ -5,6 +5,7 @@ node beside a board and watch both; checks read what was seen and run nothing.
 """
 
 from roslings.capabilities.parameters.act import list_parameters
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.parameters.demands import declare_its_parameters
 from roslings.capabilities.serial.act import board_beside, unasked
 from roslings.capabilities.serial.demands import (
@@ -55,9 +56,8 @@ from roslings_rover.rover import Body
 
 CARD = lab("serial-bridge").card
 BRIDGE = CARD.node("serial_bridge")
-PORT, BAUD = BRIDGE.parameter("port"), BRIDGE.parameter("baud")
-MEASURES = [BRIDGE.parameter(each) for each in ("wheel_radius", "wheel_separation")]
-FASTEST = BRIDGE.parameter("max_wheel_speed")
+PORT, BAUD, FASTEST = BRIDGE.of(ParameterWords).named("port", "baud", "max_wheel_speed")
+MEASURES = BRIDGE.of(ParameterWords).named("wheel_radius", "wheel_separation")
 WHEELS, ODOM = BRIDGE.publishes
 CMD_VEL = BRIDGE.subscribes[0]
 STRAIGHT, TURN, ARC = (0.3, 0.0), (0.0, 1.2), (0.25, -0.4)

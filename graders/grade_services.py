@@ -5,6 +5,7 @@ student's nodes and watch; checks read what was seen and run nothing.
 """
 
 from roslings.capabilities.services.act import Asker, answering, await_end
+from roslings.capabilities.services.contract import ServiceWords
 from roslings.capabilities.services.demands import (
     answer_each,
     answer_in_time,
@@ -44,8 +45,8 @@ from roslings.judge import (
 CARD = lab("services").card
 SERVER, CLIENT = CARD.node("motor_controller"), CARD.node("motor_client")
 STATE = SERVER.publishes[0]
-SET_MAX_SPEED, RESET = SERVER.serves
-ASKED = CLIENT.calls[0]
+SET_MAX_SPEED, RESET = SERVER.of(ServiceWords).serves
+ASKED = CLIENT.of(ServiceWords).calls[0]
 RESET_AGAIN = RESET.whatever_it_answers
 IN_A_ROW, CLIENTS, TIMES, RESETS = 100, 4, 25, 20
 FREE = RESET.answers[-1].state
@@ -152,7 +153,7 @@ def test_reset(serving: ExperimentView) -> None:
 def test_state(serving: ExperimentView) -> None:
     """The state is kept: {STATE.topic} says what was set, and {FREE} before that."""
     before_the_calls(serving, STATE).must(say_at_first(FREE))
-    serving.must(show_each(SERVER.serves, STATE))
+    serving.must(show_each([SET_MAX_SPEED, RESET], STATE))
 
 
 @check(needs=["set_max_speed"])

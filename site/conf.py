@@ -9,6 +9,8 @@ sys.path[:0] = [str(HERE), *map(str, HERE.parent.glob("packages/*/src"))]
 
 from course_site import course_digest, theme_colours  # noqa: E402  found by the line above
 
+from ros2_on_pip.language import VARIABLE, said, speak  # noqa: E402
+from ros2_on_pip.language import language as asked_for  # noqa: E402
 from roslings.report.html.document import MARK  # noqa: E402
 
 # For the cells of the lessons: the quiz has a page of its own here, and nobody's work is checked.
@@ -17,8 +19,15 @@ os.environ["ROSLINGS_WS"] = str(HERE / "no_workspace")
 
 project = "roslings"
 author = "the roslings authors"
-copyright = "the roslings authors, CC BY 4.0"
-language = "en"
+
+# The site is in one language. What cells print stays as it is recorded: it is code.
+language = asked_for()
+speak(language)
+os.environ.pop(VARIABLE, None)
+copyright = said("site.copyright", "the roslings authors, CC BY 4.0")
+locale_dirs = [os.environ.get("ROSLINGS_LOCALES", "locales")]
+gettext_compact = False
+gettext_location = True
 
 extensions = ["myst_nb", "course_site"]
 course_root = os.environ["ROSLINGS_COURSE"]
@@ -26,6 +35,7 @@ course_digest = course_digest(Path(course_root))
 
 # Notebooks are run by the build, so that what the page shows is what really happens.
 nb_execution_mode = "cache"
+nb_execution_cache_path = os.environ.get("ROSLINGS_CELLS", "")
 nb_execution_raise_on_error = True
 nb_execution_timeout = 60
 nb_execution_show_tb = True

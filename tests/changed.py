@@ -28,6 +28,8 @@ BUILT_TYPES = "tests/bootstrap/test_built_interfaces.py"
 STYLE = "tests/test_code_style.py"
 NO_TYPES = ("ruff", "formatted", "short", "lab", "machine")
 """Of the rules of the code those that take no processor for half a minute."""
+WORDS = ("tests/test_names.py", "tests/test_comments.py")
+"""Rules of what stands in the code for who reads it: names, and sentences beside it."""
 TEXTS = ("tests/test_anchors.py",)
 OF_A_LAB = (
     "tests/labs",
@@ -90,6 +92,7 @@ def of_a_lab(name: str) -> Iterator[Choice]:
 def of_a_grader(name: str) -> Iterator[Choice]:
     """`e_stop`: the lab, the tests of the folder beside its grader, what each capability holds."""
     yield from of_a_lab(name.replace("_", "-"))
+    yield from (Choice(place) for place in WORDS)
     if (ROOT / "graders" / name).is_dir():
         yield Choice(f"tests/lab_folders/{name}")
         yield Choice("tests/outside/test_capabilities_conform.py")
@@ -124,7 +127,7 @@ def of_our_code(place: str) -> Iterator[Choice]:
         if (ROOT / found).exists():
             yield Choice(found)
     yield Choice(KEPT)
-    yield Choice(STYLE)
+    yield from of_any_code()
 
 
 def of_a_capability(name: str) -> Iterator[Choice]:
@@ -132,7 +135,13 @@ def of_a_capability(name: str) -> Iterator[Choice]:
     yield Choice(f"{ENGINE}/capabilities/{name}")
     yield Choice("tests/outside/test_capabilities_conform.py")
     yield Choice(KEPT)
+    yield from of_any_code()
+
+
+def of_any_code() -> Iterator[Choice]:
+    """Its style, its names, and the sentences beside it."""
     yield Choice(STYLE)
+    yield from (Choice(place) for place in WORDS)
 
 
 def of_courses_outside(_: str) -> Iterator[Choice]:
@@ -142,10 +151,11 @@ def of_courses_outside(_: str) -> Iterator[Choice]:
 
 
 def of_tests(place: str) -> Iterator[Choice]:
-    """The file itself; of what a folder's tests share, the folder."""
+    """The file itself; of what a folder's tests share, the folder. None hides a module's name."""
     path = Path(place)
     yield Choice(place if path.name.startswith("test_") else str(path.parent))
     yield Choice(STYLE)
+    yield Choice(WORDS[0])
 
 
 def of_texts(_: str) -> Iterator[Choice]:
@@ -176,28 +186,35 @@ def of_pins(_: str) -> Iterator[Choice]:
 WITH_ROOMS = ("roslings", "roslings-learn")
 """Packages whose tests have a folder for each room."""
 ROOMS = {
-    "commands": ("tests/cli",),
-    "course": ("tests/labs", f"{PROVE}/test_authoring_course_files.py"),
+    "commands": ("tests/cli", "tests/languages"),
+    "language": ("tests/languages",),
+    "false_language": ("tests/languages",),
+    "label_column": ("tests/languages", "tests/cli/test_as_typed.py"),
+    "drills": ("tests/languages",),
+    "texts": ("tests/languages",),
+    "checks": ("tests/languages/test_false_doctor.py",),
+    "screen": ("tests/languages/test_false_doctor.py",),
+    "course": (
+        "tests/labs",
+        f"{ENGINE}/judge/test_grader_mistakes.py",
+        f"{ENGINE}/workspace/test_workspace_variants.py",
+        f"{PROVE}/test_authoring_consistency.py",
+        f"{PROVE}/test_authoring_course_files.py",
+    ),
+    "workspace": ("tests/cli/test_cli_startup.py",),
     "lessons": ("tests/days", "tests/site/test_site_lessons.py"),
     "record": (f"{ENGINE}/evidence",),
     "evidence": (f"{ENGINE}/evidence",),
     "capability": ("tests/outside",),
-    "lab_folders": ("tests/outside",),
-    "course_folder": ("tests/labs",),
-    "matching": (f"{ENGINE}/judge",),
-    "rates": (f"{ENGINE}/judge",),
+    "folders": ("tests/outside", "tests/labs", "tests/lab_folders/test_lab_folders.py"),
+    "seen": (f"{ENGINE}/judge",),
     "verdict": (f"{ENGINE}/judge",),
-    "grader": (f"{ENGINE}/judge", f"{PROVE}/test_authoring_consistency.py"),
+    "grading": ("tests/cli/test_evidence.py", "tests/cli/test_platforms.py", f"{ENGINE}/report"),
     "jupyter": (f"{LEARN}/notebook", "tests/days"),
     "of_window": ("tests/days/test_days_window.py",),
-    "saving": ("tests/cli/test_evidence.py",),
     "models": (f"{ENGINE}/capabilities",),
-    "shapes": (f"{ENGINE}/report",),
     "hand_in": (f"{CLASS}/batch",),
-    "way": ("tests/cli",),
-    "variants": ("tests/labs/test_labs_variants.py", f"{ENGINE}/workspace"),
     "interfaces": (BUILT_TYPES,),
-    "own_card": (f"{ENGINE}/workspace", "tests/cli/test_cli_startup.py"),
 }
 """Rooms whose tests stand elsewhere, too."""
 

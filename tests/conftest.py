@@ -1,5 +1,5 @@
 """What holds for every test stands in `suite.py`."""
 
-import roslings.lab_folders  # noqa: F401  # `graders.e_stop` can be imported from here on
+import roslings.folders.lab_folders  # noqa: F401  # `graders.e_stop` can be imported from here on
 
 pytest_plugins = ["suite"]

@@ -280,19 +280,19 @@ def loopback_multicast(_: Environment) -> str:
     group = "239.255.77.77"
     try:
         with (
-            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as ear,
-            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as mouth,
+            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver,
+            socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,
         ):
             own = socket.inet_aton("127.0.0.1")
-            ear.bind(("", 0))
-            ear.settimeout(5)
-            ear.setsockopt(
+            receiver.bind(("", 0))
+            receiver.settimeout(5)
+            receiver.setsockopt(
                 socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(group) + own
             )
-            mouth.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, own)
-            mouth.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
-            mouth.sendto(b"one", (group, ear.getsockname()[1]))
-            ear.recv(16)
+            sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, own)
+            sender.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, 0)
+            sender.sendto(b"one", (group, receiver.getsockname()[1]))
+            receiver.recv(16)
     except OSError as error:
         return str(error)
     return ""

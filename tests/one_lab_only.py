@@ -4,8 +4,8 @@
 
 Users of a module are the labs whose graders lead to it, courses outside of this one that a test
 proves, and whatever is typed. What one lab alone uses belongs into the folder beside its grader
-(`roslings/lab_folders.py`), unless it is a concept of ROS: then a course outside uses it too, with
-other names, types and numbers. `EXPLAINED` says of which that is not so yet.
+(`roslings/folders/lab_folders.py`), unless it is a concept of ROS: then a course outside uses it
+too, with other names, types and numbers. `EXPLAINED` says of which that is not so yet.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from functools import cache
 from pathlib import Path
 
 from roslings.course import all_labs
-from roslings.lab_folders import GRADERS
-from roslings_prove.proofs.closure import Code, Modules, Tree
+from roslings.folders.lab_folders import GRADERS
+from roslings_prove.proofs.closure import Code, Modules, ModuleTree
 from roslings_prove.proofs.digests import START
 from sources import ROOT, sources
 
@@ -33,8 +33,10 @@ WALKS = ("site/pages/teachers/a-larger-lab.md",)
 """Pages that lead to a lab of another course; a test goes each way."""
 CODE = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
-EXPLAINED: Mapping[str, str] = {}
-"""Module, or the room that it lies in, to why it is where it is; there is none now."""
+EXPLAINED: Mapping[str, str] = {
+    "roslings.walks": "it knows no lab and no ROS; each lab with a state is to be walked through"
+}
+"""Module, or the room that it lies in, to why it is where it is."""
 
 
 def main() -> int:
@@ -48,9 +50,9 @@ def main() -> int:
     return 0
 
 
-def tree() -> Tree:
+def tree() -> ModuleTree:
     """Of this course."""
-    return Tree(tuple(sources()), ROOT / GRADERS)
+    return ModuleTree(tuple(sources()), ROOT / GRADERS)
 
 
 def serves_one_lab() -> dict[str, set[str]]:
@@ -85,7 +87,7 @@ def graders_outside() -> Iterator[Path]:
         yield from sorted(ROOT.glob(f"{place}/{GRADERS}/**/*.py"))
 
 
-def typed(tree: Tree) -> set[str]:
+def typed(tree: ModuleTree) -> set[str]:
     """Where each command begins, and where measuring does."""
     names = (tree.name_of(file) for above in tree.sources for file in above.rglob("*.py"))
     others = {name for name in names if not f"{name}.".startswith(f"{ENGINE}.capabilities.")}

@@ -15,6 +15,7 @@ from changed import (
     OF_A_LAB,
     SOLUTION,
     STYLE,
+    WORDS,
     Choice,
     NoSuchCommit,
     changed_files,
@@ -24,20 +25,7 @@ from changed import (
 from roslings.course import all_labs, root
 from slow import slow_files
 
-ROOMS_WITHOUT = {
-    "__init__",
-    "__main__",
-    "command_names",
-    "exits",
-    "log_rates",
-    "platforms",
-    "handing_in",
-    "rqt_graph",
-    "typed",
-    "timeline",
-    "checking",
-    "built_site",
-}
+ROOMS_WITHOUT = {"__init__", "__main__", "command_names"}
 """Parts of the engine without a folder of tests: their changes judge the proofs and the style."""
 CODE = "packages/roslings/src/roslings"
 OF_SERVICES = (
@@ -46,7 +34,7 @@ OF_SERVICES = (
     "graders/grade_services.py",
     "graders/services/act.py",
     "tests/proofs/services.jsonl",
-    "tests/proofs/services/solution.evidence",
+    "tests/proofs/services/0.tar.xz",
 )
 
 
@@ -100,14 +88,42 @@ def test_a_change_of_the_engine_chooses_its_room_and_all_kept_proofs() -> None:
     """Without a live run: whoever changes what judges sees the words of 600 verdicts."""
     for file, place in (
         (f"{CODE}/judge/rates.py", f"{ENGINE}/judge/test_rates.py::test_it"),
-        (f"{CODE}/matching.py", f"{ENGINE}/judge/test_matching.py::test_it"),
-        (f"{CODE}/way.py", "tests/cli/test_door.py::test_it"),
+        (f"{CODE}/seen/matching.py", f"{ENGINE}/judge/test_matching.py::test_it"),
+        (f"{CODE}/commands/way.py", "tests/cli/test_door.py::test_it"),
         (f"{CODE}/capabilities/qos/faults.py", f"{ENGINE}/capabilities/qos/test_x.py::test_it"),
         ("packages/ros-doctor/src/ros_doctor/mends.py", "packages/ros-doctor/tests/test_x.py::t"),
     ):
         assert chosen(file, place)
         assert all(chosen(file, f"{KEPT}[{lab.name}]") for lab in all_labs())
         assert chosen(file, f"{STYLE}::test_the_arrows_run_one_way")
+
+
+def test_code_for_people_is_looked_at_by_the_rules_of_its_words() -> None:
+    """Names and sentences of packages and of graders; a file of tests hides no module's name."""
+    names, comments = (f"{file}::test_it" for file in WORDS)
+    for file in (
+        f"{CODE}/judge/rates.py",
+        f"{CODE}/capabilities/qos/faults.py",
+        "packages/ros-doctor/src/ros_doctor/mends.py",
+        "graders/grade_services.py",
+        "graders/e_stop/act.py",
+    ):
+        assert chosen(file, names) and chosen(file, comments), file
+    assert chosen("tests/judge/test_new.py", names)
+    assert not chosen("labs/services/card.yaml", comments)
+
+
+def test_commands_are_looked_at_in_the_false_language() -> None:
+    """Whoever adds a text is told where it has no id."""
+    for file in (
+        f"{CODE}/commands/way.py",
+        "packages/ros2-on-pip/src/ros2_on_pip/language.py",
+        "packages/roslings-learn/src/roslings_learn/drills/telling.py",
+        "packages/ros-doctor/src/ros_doctor/checks/live.py",
+    ):
+        assert chosen(file, "tests/languages/test_false_doctor.py::t") or chosen(
+            file, "tests/languages/test_false_commands.py::t"
+        ), file
 
 
 def test_a_file_of_slow_tests_is_chosen_with_them() -> None:
@@ -129,14 +145,14 @@ def test_each_room_has_its_tests() -> None:
         room
         for room in rooms - {"capabilities"}
         if set(places_of(choices_for([f"{CODE}/{room}/it.py"])[0]))
-        == {KEPT.partition("::")[0], STYLE}
+        == {KEPT.partition("::")[0], STYLE, *WORDS}
     }
     assert without == ROOMS_WITHOUT & rooms
 
 
 def test_what_the_rules_name_is_there() -> None:
     """A test that is renamed, or a file that moves, is renamed there too."""
-    for place in (*OF_A_LAB, *OF_A_DAY):
+    for place in (*OF_A_LAB, *OF_A_DAY, *WORDS):
         assert (root() / place).exists(), place
     for name in (KEPT, SOLUTION):
         file, test = name.split("::")

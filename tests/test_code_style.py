@@ -10,6 +10,8 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
+
 from roslings.course import root
 from sources import code_of, our_modules, python_path, sources
 
@@ -59,6 +61,7 @@ def test_the_formatter_is_held_off_nowhere() -> None:
     assert [file for file in files if off.search(file.read_text("utf-8"))] == []
 
 
+@pytest.mark.xdist_group("mypy")  # one after the other: they share what mypy has read
 def test_the_types_hold() -> None:
     """mypy, strict."""
     assert run("mypy", *map(str, sources()), "graders") == ""

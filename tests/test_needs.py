@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+import lzma
 import os
 import subprocess
 import sys
@@ -347,6 +349,24 @@ def test_what_was_written_is_read_again(tmp_path: Path) -> None:
     assert records.read() == {one.file: one, two.file: newer}
     records.add(newer, there=[])
     assert records.read() == {two.file: newer}
+
+
+def test_records_are_packed(tmp_path: Path) -> None:
+    """The digests of many files, of which each test file needs most; the same bytes each time."""
+    digests = (hashlib.sha256(b"%d" % n).hexdigest()[:16] for n in range(1000))
+    needs = {
+        Need(f"packages/some/src/room/module_{n}.py", MEANING): d for n, d in enumerate(digests)
+    }
+    records = [record_of(f"tests/test_{n}.py", needs) for n in range(50)]
+    folders = [tmp_path / "one", tmp_path / "other"]
+    for folder, order in zip(folders, (records, records[::-1]), strict=True):
+        Records(folder).write(order)
+    one, other = ({f.name: f.read_bytes() for f in folder.iterdir()} for folder in folders)
+    assert one == other and one.keys() == {"states.txt.xz", "records.jsonl.xz"}
+    plain = {name: lzma.decompress(content).decode() for name, content in one.items()}
+    first = plain["states.txt.xz"].splitlines()[0]
+    assert first == f"{MEANING} {needs[Need(first.split(' ')[2], MEANING)]} {first.split(' ')[2]}"
+    assert sum(map(len, one.values())) < sum(map(len, plain.values())) / 3
 
 
 def test_runs_of_numbers_are_short() -> None:

@@ -13,7 +13,11 @@ from slow import LIST, ROW, folders_of_tests, is_slow_whole, slow_files
 
 GATE = (root() / ".ci/run").read_text("utf-8")
 STAGES = set(re.findall(r'^(?:stage|trial) "([^"$]+)"', GATE, re.MULTILINE))
-OF_LABS = "By the wall's clock, and with nothing in them"
+OF_FOLDERS = {
+    "tests/labs/": "By the wall's clock, and with nothing in them",
+    "tests/rogues/": "The rogues",
+}
+WHOLE_MACHINE = "The tests that take the whole machine"
 ROWS = [match.groupdict() for match in ROW.finditer(LIST.read_text("utf-8"))]
 MARKED = {
     "all": "import pytest\n\npytestmark = [\n    pytest.mark.slow,\n]\n\ndef test_it(): pass\n",
@@ -41,17 +45,26 @@ def test_a_mark_of_each_form_is_seen(how_many: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row["file"])
 def test_each_has_its_stage(row: dict[str, str]) -> None:
-    """One that there is; the tests of labs have a stage of their own."""
-    stages = row["stage"].split("; ")
-    assert set(stages) <= STAGES
-    assert (OF_LABS in stages) == row["file"].startswith("tests/labs/")
+    """One that there is; the tests of labs and the rogues have a stage of their own."""
+    stages = {*row["stage"].split("; ")}
+    assert stages <= STAGES
+    own = {stage for folder, stage in OF_FOLDERS.items() if row["file"].startswith(folder)}
+    assert stages & {*OF_FOLDERS.values()} == (set() if stages == {WHOLE_MACHINE} else own)
 
 
 def test_the_stages_run_slow_tests() -> None:
-    """Those of labs in one, all others in two."""
-    assert "--ignore=tests/labs" in GATE
-    for words in ('-m "$slow and not alone"', '-m "$slow and alone"', 'tests/labs -m "$slow"'):
+    """Those of labs and the rogues in one each, all others in two."""
+    runs = ('-m "$slow and not alone"', '-m "$slow and alone"', 'tests/labs -m "$slow"')
+    for words in (*runs, 'tests/rogues -m "$slow and not alone"'):
         assert words in GATE
+    assert "--ignore=tests/labs --ignore=tests/rogues" in GATE
+
+
+def test_what_a_run_may_not_do_without_comes_before_what_it_may() -> None:
+    """Too few rogues fail a run, and so does what is due; slow tests without time do not."""
+    stages = re.findall(r'^(?:stage|trial) "([^"$]+)"', GATE, re.MULTILINE)
+    needed = ["The proofs that are due", "The rogues", "The slow tests"]
+    assert [stage for stage in stages if stage in needed] == needed
 
 
 def test_no_room_is_left_without_a_test() -> None:

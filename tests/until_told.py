@@ -71,10 +71,20 @@ class Checked:
         return [each["id"] for each in self.verdict["checks"] if each["outcome"] == outcome]
 
 
-def checked(lab: str, *words: str | Path, folder: Path, **how: Any) -> Checked:
+ROSLINGS = ("-m", "roslings")
+"""What Python runs as `./roslings`."""
+
+
+def checked(
+    lab: str,
+    *words: str | Path,
+    folder: Path,
+    roslings: Sequence[str | Path] = ROSLINGS,
+    **how: Any,
+) -> Checked:
     """`./roslings check LAB WORDS` in a folder, which gets the verdict's file."""
     file = folder / "verdict.json"
-    command = [sys.executable, "-m", "roslings", "check", lab, *words, "--json", file]
+    command = [sys.executable, *roslings, "check", lab, *words, "--json", file]
     ran = run_until_told(command, **{"cwd": folder, **how})
     assert file.is_file(), ran.stderr
     return Checked(ran, json.loads(file.read_text("utf-8")))

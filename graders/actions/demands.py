@@ -8,12 +8,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from graders.actions import faults
+from graders.actions.faults import Moment
+from graders.actions.reasons import CancelHeldUp, GoalUnseen, SecondTooLate
 from graders.actions.record import stopped_after_s
 from ros2_on_pip.rates import measure_rate
 from roslings.capabilities.actions import faults as action_faults
 from roslings.capabilities.actions.contract import RESTLESS, ActionContract
 from roslings.capabilities.actions.handling import (
-    Given,
+    GivenGoal,
     error_of,
     feedback_of,
     limits,
@@ -29,14 +31,15 @@ from roslings.capabilities.actions.record import (
     GoalSeen,
     cancelled_after_s,
 )
-from roslings.capabilities.robot.record import DriveSeen, PoseSeen, RobotSeen
+from roslings.capabilities.robot.record import PoseSeen, RobotDriveSeen, RobotSeen
 from roslings.capabilities.topics.faults.messages import NoMessages
 from roslings.capabilities.topics.faults.rhythm import rate_fault
 from roslings.course import NodeContract, RateContract
 from roslings.course.files import written
 from roslings.evidence import MessageSeen
 from roslings.judge.demands import require_believable, require_its_time, require_steady
-from roslings.judge.faults import Inconclusive, NothingToJudge
+from roslings.judge.faults.moments import Awaited
+from roslings.judge.faults.sentences import Text
 from roslings.judge.views import Demand, ExperimentView, ProcessView
 
 PLACE_M = 0.03
@@ -54,10 +57,10 @@ FEWEST_FEEDBACKS = 5
 
 
 @dataclass(frozen=True)
-class Trip(Given):
+class Trip(GivenGoal):
     """One goal of the grader's, with the robot's way meanwhile."""
 
-    drive: DriveSeen
+    drive: RobotDriveSeen
 
     @property
     def until_ns(self) -> float:
@@ -82,7 +85,7 @@ def trip(experiment: ExperimentView, node: NodeContract, part: str) -> Trip:
     goal = next((each for each in seen.part(ActionsSeen).goals if each.part == part), None)
     drive = seen.part(RobotSeen).drive
     if goal is None or drive is None:
-        raise NothingToJudge("no goal could be given")
+        raise GoalUnseen("not_given")
     return Trip(goal, experiment.process(node), drive)
 
 
@@ -114,7 +117,9 @@ def cancel_each(node: NodeContract, parts: Sequence[str], before: str) -> Demand
     return demand
 
 
-def _accepted_again(experiment: ExperimentView, node: NodeContract, part: str, before: str) -> Trip:
+def _accepted_again(
+    experiment: ExperimentView, node: NodeContract, part: str, before: Text
+) -> Trip:
     """The goal of this part. Raises the fault that tells why it was not accepted."""
     given = trip(experiment, node, part)
     require_answer(experiment, given)
@@ -127,7 +132,7 @@ def hear_meanwhile(experiment: ExperimentView) -> None:
     """While a goal is under way, the node's other callbacks run."""
     if experiment.seen.stuck:
         require_steady(experiment.seen.stall_s)
-        require_its_time(experiment.seen, HEARS, None, "an answer of the node")
+        require_its_time(experiment.seen, HEARS, None, Awaited("node_answer"))
         raise faults.BlocksTheNode(limits(experiment).hears_within_s)
 
 
@@ -193,7 +198,7 @@ def tell_the_truth(node: NodeContract, part: str) -> Demand[ExperimentView]:
         given = trip(experiment, node, part)
         heard = feedback_of(experiment, given)
         if len(heard) < FEWEST_FEEDBACKS:
-            raise NothingToJudge("there was too little feedback to compare")
+            raise GoalUnseen("feedback")
         for name in ("x", "y", "distance"):
             _compare(experiment, given, heard, name)
 
@@ -248,7 +253,7 @@ def _arrive(experiment: ExperimentView, given: Trip) -> None:
     nearest_m = min(given.distance_m(pose) for pose in at_the_end)
     if nearest_m > tolerance_m + PLACE_M / 3:
         raise faults.EndsTooFar(given.words, tolerance_m, nearest_m)
-    _require_stop(given, "when the rover is there")
+    _require_stop(given, Moment("there"))
 
 
 def _slack_ns(experiment: ExperimentView) -> float:
@@ -267,7 +272,7 @@ def _raise_no_end(experiment: ExperimentView, given: Trip) -> None:
     nearest_m = min(distances, default=math.inf)
     require_steady(experiment.seen.stall_s)
     idle_s = limits(experiment).idle_s
-    require_its_time(experiment.seen, given.goal.part, idle_s, "the end of a goal")
+    require_its_time(experiment.seen, given.goal.part, idle_s, Awaited("goal_end"))
     moved = bool(distances) and max(distances) - nearest_m > PLACE_M
     raise faults.NeverArrives(given.words, nearest_m, distances[0] if distances else 0.0, moved)
 
@@ -281,10 +286,10 @@ def _returned_nothing(process: ProcessView) -> bool:
 def _leave_error_to_another(given: Trip) -> None:
     """An error of the student's code is told once, where the robot is to arrive."""
     if error_of(given) or given.node.seen.ended_by_itself:
-        raise NothingToJudge("the execute callback ended with an error: mend that first")
+        raise GoalUnseen("error")
 
 
-def _require_stop(given: Trip, when: str) -> None:
+def _require_stop(given: Trip, when: Text) -> None:
     """The last command while it was watched says: stand still."""
     told = [c for c in given.drive.commands if c.arrival_ns <= given.until_ns]
     if told and (told[-1].forward_m_s or told[-1].turn_rad_s):
@@ -296,18 +301,18 @@ def succeed(node: NodeContract, part: str) -> Demand[ExperimentView]:
 
     def demand(experiment: ExperimentView) -> None:
         given = trip(experiment, node, part)
-        require_state(given, "succeeded", "when the rover is there")
+        require_state(given, "succeeded", Moment("there"))
         result = given.goal.result
         if not result["reached"]:
-            raise action_faults.WrongResult("reached", "when the rover is there", "true", "false")
+            raise action_faults.WrongResult("reached", Moment("there"), "true", "false")
         ended_ns, sent_ns = given.goal.ended_ns or 0, given.goal.sent_ns
         took_s = (ended_ns - sent_ns) / 1e9
         worked_s = (ended_ns - (given.goal.answered_ns or sent_ns)) / 1e9  # after it had thought
         slack_s = ELAPSED_S + experiment.seen.stall_s + experiment.seen.cpu_wait_s
         elapsed_s = float(result["elapsed"])
         if not worked_s - slack_s <= elapsed_s <= took_s + ELAPSED_S:
-            wanted, found = f"about {took_s:.1f} s", f"{elapsed_s:.2f} s"
-            raise action_faults.WrongResult("elapsed", "at the end", wanted, found)
+            wanted, found = faults.About(took_s), f"{elapsed_s:.2f} s"
+            raise action_faults.WrongResult("elapsed", Moment("end"), wanted, found)
 
     return demand
 
@@ -331,14 +336,14 @@ def cancel_in_time(
         if undisturbed:
             _leave_error_to_another(undisturbed)
         if not goal.accepted or goal.cancel_sent_ns is None:
-            raise NothingToJudge("there was no goal to cancel")
+            raise GoalUnseen("no_cancel")
         _require_cancelled(experiment, given)
         took_s = cancelled_after_s(goal) or 0.0
         if took_s > limit_s:
             require_not_held_up(experiment, goal, took_s - limit_s)
             raise faults.CancelsLate(limit_s, took_s)
         if goal.result["reached"]:
-            raise action_faults.WrongResult("reached", "after a cancel", "false", "true")
+            raise action_faults.WrongResult("reached", Moment("cancelled"), "false", "true")
 
     return demand
 
@@ -351,17 +356,17 @@ def _require_cancelled(experiment: ExperimentView, given: Trip) -> None:
         raise action_faults.EndedInsteadOfPerforming(given.words, 0.0, log=process.last_lines())
     if goal.cancel_answered_ns is None:
         require_steady(experiment.seen.stall_s)
-        require_its_time(experiment.seen, goal.part, waited_s, "the answer to a cancel")
+        require_its_time(experiment.seen, goal.part, waited_s, Awaited("cancel_answer"))
         raise faults.CancelUnanswered(waited_s=waited_s)
     if not goal.cancel_accepted and (goal.ended_ns or math.inf) > goal.cancel_answered_ns:
         raise action_faults.CancelRefused
     if not goal.cancel_accepted:
-        raise NothingToJudge("the goal ended before it could be cancelled")
+        raise GoalUnseen("ended")
     if goal.ended_ns is None or _went_on_to_the_goal(given):
         require_steady(experiment.seen.stall_s)
-        require_its_time(experiment.seen, goal.part, waited_s, "the end of a goal")
+        require_its_time(experiment.seen, goal.part, waited_s, Awaited("goal_end"))
         raise faults.GoesOnAfterCancel(cancelled_after_s(goal) or waited_s)
-    require_state(given, "canceled", "after a cancel")
+    require_state(given, "canceled", Moment("cancelled"))
 
 
 def _went_on_to_the_goal(given: Trip) -> bool:
@@ -385,7 +390,7 @@ def stop_in_time(node: NodeContract, action: ActionContract, part: str) -> Deman
         given = trip(experiment, node, part)
         took_s = stopped_after_s(given.goal, given.drive)
         if took_s is None:
-            _require_stop(given, "after a cancel")
+            _require_stop(given, Moment("cancelled"))
         elif took_s > limit_s:
             require_not_held_up(experiment, given.goal, took_s - limit_s)
             raise faults.StopsLate(limit_s, took_s)
@@ -398,10 +403,7 @@ def require_not_held_up(experiment: ExperimentView, goal: GoalSeen, late_s: floa
     require_believable(experiment.seen)
     held_s = experiment.seen.stall_s + goal.cpu_wait_s
     if late_s <= held_s:
-        raise Inconclusive(
-            f"a cancel was late by {late_s:.2f} s, but this computer held your node or the check up"
-            f" for {held_s:.2f} s; close other programs and check again"
-        )
+        raise CancelHeldUp(late_s, held_s)
 
 
 # --- two goals at once -------------------------------------------------------------------------
@@ -411,7 +413,7 @@ def keep_to_the_first(node: NodeContract, part: str) -> Demand[ExperimentView]:
     """A second goal is refused while the first is under way, which is then reached."""
 
     def demand(experiment: ExperimentView) -> None:
-        first = _accepted_again(experiment, node, part, "after goals that were refused")
+        first = _accepted_again(experiment, node, part, Moment("refused"))
         second = trip(experiment, node, f"{part}: another")
         require_answer(experiment, second)
         if second.goal.accepted:
@@ -419,10 +421,7 @@ def keep_to_the_first(node: NodeContract, part: str) -> Demand[ExperimentView]:
             raise faults.TakesSecondGoal
         if not _is_there(first):
             require_steady(experiment.seen.stall_s)
-            end = first.goal.status or "no end of it came"
-            raise faults.FirstGoalDisturbed(
-                f"the rover did not get there; state of the first goal: {end}"
-            )
+            raise faults.FirstGoalDisturbed(first.goal.status)
 
     return demand
 
@@ -431,7 +430,4 @@ def _require_under_way(first: Trip, second: Trip) -> None:
     """The first goal had not been reached when the second was answered. Raises Inconclusive."""
     ended_ns, answered_ns = first.goal.ended_ns, second.goal.answered_ns
     if first.goal.status == "succeeded" and ended_ns and answered_ns and ended_ns <= answered_ns:
-        raise Inconclusive(
-            "this computer was so slow that the first goal ended before the second was given; close"
-            " other programs and check again"
-        )
+        raise SecondTooLate

@@ -3,13 +3,41 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from roslings.capabilities.actions.faults import CancelRefused, RefusesGoodGoal
 from roslings.capabilities.topics.faults.rhythm import WrongRate
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.sentences import SentencePart, Text, one_of
 
 NEARER_M = 0.05
 """A rover that never came nearer by more than this drives away, or in circles."""
+
+
+@dataclass(frozen=True)
+class Moment(SentencePart):
+    """When it is, on the way of a goal."""
+
+    at: Literal["there", "end", "cancelled", "refused"]
+    text = one_of(
+        there="when the rover is there",
+        end="at the end",
+        cancelled="after a cancel",
+        refused="after goals that were refused",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """Which one it is."""
+        return self.at
+
+
+@dataclass(frozen=True)
+class About(SentencePart):
+    """A time that is not asked to the last digit."""
+
+    seconds: float
+    text = "about {seconds:.1f} s"
 
 
 # --- a goal is answered ------------------------------------------------------------------------
@@ -40,13 +68,13 @@ class BlocksTheNode(Fault):
         " hears nothing: not where the rover is, and no request to cancel."
     )
     hint = (
-        "While the execute callback works, who runs the other callbacks of the node? Look at "
-        "how main() spins."
+        "While the execute callback waits, who runs the other callbacks of the node? Look at the"
+        " line of its loop that waits."
     )
     mend = (
-        "Give the node several threads:"
-        " rclpy.spin(node, executor=MultiThreadedExecutor(num_threads=4)). The threads are what"
-        " counts: a callback group alone changes nothing."
+        "Write `async def` before the execute callback, and `await self.tick` in place of"
+        " time.sleep(): then the thread is free meanwhile. A loop that sleeps needs a node with"
+        " several threads: rclpy.spin(node, executor=MultiThreadedExecutor(num_threads=4))."
     )
     expected = "while a goal is under way, the node's other callbacks run"
     measured = (
@@ -68,19 +96,12 @@ class WrongFeedbackRate(Fault):
 
     hint = "How long does one turn of the loop take? Look at what waits in it."
 
-    @property
-    def measured(self) -> str:
-        """The rate, or the shape of the intervals."""
-        return self.rhythm.measured
-
-    @property
-    def mend(self) -> str:
-        """The length of a turn."""
-        period_s = 1 / self.rhythm.wanted_hz
-        return (
-            f"{self.rhythm.wanted_hz:g} Hz means one feedback every {period_s:g} s. Publish it in"
-            f" each turn of the loop, and let a turn take so long: time.sleep({period_s:g})."
-        )
+    measured = "{rhythm.measured}"
+    mend = (
+        "{rhythm.wanted_hz:g} Hz means one feedback every {rhythm.wanted_s:g} s. Publish it in"
+        " each turn of the loop, and let a turn take so long: the period of the timer whose tick"
+        " the loop awaits."
+    )
 
 
 @dataclass(eq=False)
@@ -99,14 +120,16 @@ class NeverRests(Fault):
 
     hint = "What makes the loop of the execute callback wait, once in each turn?"
 
+    mend = (
+        "Is there an `await self.tick` in the execute callback, and inside of its loop? The timer"
+        " makes a tick every {wanted_s:g} s. A loop on a thread of its own may sleep so long:"
+        " time.sleep({wanted_s:g})."
+    )
+
     @property
-    def mend(self) -> str:
-        """The missing line."""
-        period_s = 1 / self.wanted_hz
-        return (
-            f"Is there a time.sleep({period_s:g}) in the execute callback, and inside of its loop?"
-            " It is the last line of each turn."
-        )
+    def wanted_s(self) -> float:
+        """The length of a turn."""
+        return 1 / self.wanted_hz
 
 
 @dataclass(eq=False)
@@ -125,10 +148,12 @@ class WrongFeedback(Fault):
         "/odom message?"
     )
 
+    mend = one_of(distance="It is math.hypot(goal.x - x, goal.y - y).")
+
     @property
-    def mend(self) -> str:
-        """Where it is set."""
-        return "It is math.hypot(goal.x - x, goal.y - y)." if self.field_name == "distance" else ""
+    def which_mend(self) -> str:
+        """Of other fields there is no more to say."""
+        return "distance" if self.field_name == "distance" else ""
 
 
 @dataclass(eq=False)
@@ -156,43 +181,41 @@ class NeverArrives(Fault):
     why = "An action that never ends keeps everybody waiting who needs the robot there."
     expected = "the rover drives to {goal}, and the goal ends"
 
+    measured = one_of(
+        stood="the goal did not end, and the rover did not move",
+        moved="the goal did not end: the rover was {began_m:.2f} m away at first, and never"
+        " nearer than {nearest_m:.2f} m",
+    )
+    hint = one_of(
+        stood="Does the loop publish a command on /cmd_vel in each turn? Look with"
+        " `ros2 topic echo /cmd_vel` while a goal is under way.",
+        away="It does not come nearer. Watch it on the map of `./roslings rover`: in which"
+        " direction does it drive, and in which one is the goal?",
+        near="Watch it on the map of `./roslings rover`. Does the loop use the newest place each"
+        " time, and when does it end?",
+    )
+    mend = one_of(
+        away="The direction to the goal is atan2(goal.y - y, goal.x - x), with x and y of the"
+        " newest place.",
+        near="The loop ends where the distance is within goal.tolerance.",
+    )
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """How far it got."""
-        if not self.moved:
-            return "the goal did not end, and the rover did not move"
-        return (
-            f"the goal did not end: the rover was {self.began_m:.2f} m away at first, and never"
-            f" nearer than {self.nearest_m:.2f} m"
-        )
+        return "moved" if self.moved else "stood"
 
     @property
-    def hint(self) -> str:
-        """What to look at."""
+    def which_hint(self) -> str:
+        """Whether it moved, and came nearer."""
         if not self.moved:
-            return (
-                "Does the loop publish a command on /cmd_vel in each turn? Look with"
-                " `ros2 topic echo /cmd_vel` while a goal is under way."
-            )
-        if self.nearest_m > self.began_m - NEARER_M:
-            return (
-                "It does not come nearer. Watch it on the map of `./roslings rover`: in which"
-                " direction does it drive, and in which one is the goal?"
-            )
-        return (
-            "Watch it on the map of `./roslings rover`. Does the loop use the newest place each"
-            " time, and when does it end?"
-        )
+            return "stood"
+        return "away" if self.nearest_m > self.began_m - NEARER_M else "near"
 
     @property
-    def mend(self) -> str:
+    def which_mend(self) -> str:
         """The direction, or the end."""
-        if self.moved and self.nearest_m > self.began_m - NEARER_M:
-            return (
-                "The direction to the goal is atan2(goal.y - y, goal.x - x), with x and y of the"
-                " newest place."
-            )
-        return "The loop ends where the distance is within goal.tolerance." if self.moved else ""
+        return self.which_hint if self.moved else ""
 
 
 @dataclass(eq=False)
@@ -216,32 +239,45 @@ class EndsTooFar(Fault):
 class KeepsDriving(Fault):
     """The goal has ended, and nobody told the robot to stop."""
 
-    when: str
+    when: Text
     speed_m_s: float
     turn_rad_s: float
-    why = "A robot does what it was told last. Without a last command of zero it drives on."
+    why = (
+        "A robot does what it was told last. Without a last command of zero it drives on, until it"
+        " notices that nothing comes any more."
+    )
     hint = "What is the last command on /cmd_vel? Look at each way out of the loop."
     mend = (
         "After the loop, on each way out of it, publish an empty Twist(): all its speeds are zero."
     )
     expected = "{when}, the last command is zero: stand still"
 
+    measured = (
+        "the last command was {forward_m_s:.2f} m/s forward and {around_rad_s:.2f} rad/s of turn"
+    )
+
     @property
-    def measured(self) -> str:
-        """The last command."""
-        forward, turn = (round(speed, 2) + 0.0 for speed in (self.speed_m_s, self.turn_rad_s))
-        return f"the last command was {forward:.2f} m/s forward and {turn:.2f} rad/s of turn"
+    def forward_m_s(self) -> float:
+        """The last command: forward. What is shown as 0 has no sign."""
+        return round(self.speed_m_s, 2) + 0.0
+
+    @property
+    def around_rad_s(self) -> float:
+        """The last command: the turn."""
+        return round(self.turn_rad_s, 2) + 0.0
 
 
 @dataclass(eq=False)
 class StopsLate(Fault):
     """The robot was told to stop, but too late."""
 
+    KNOWN_AS = "StopsLateAfterCancel"
+
     limit_s: float
     found_s: float
     why = "Perhaps a child stands in the robot's way. Then each tenth of a second counts."
     hint = "How often does your loop look whether it is to stop?"
-    mend = "Look at goal_handle.is_cancel_requested in each turn of the loop, and sleep shortly."
+    mend = "Look at goal_handle.is_cancel_requested in each turn of the loop, and wait shortly."
     expected = "the rover is told to stand still within {limit_s:g} s of the cancel"
     measured = "that took {found_s:.2f} s"
 
@@ -310,13 +346,19 @@ class TakesSecondGoal(Fault):
 class FirstGoalDisturbed(Fault):
     """The second goal was refused, and the first did not come to its end."""
 
-    found: str
+    state: str | None
+    """In which the first goal ended; None: it did not."""
     why = "A goal that was refused must not change anything."
     hint = "What does the goal callback change before it refuses a goal?"
     mend = "Let the goal callback change nothing where it returns GoalResponse.REJECT."
     expected = "after another goal was refused, the first one goes on, and the rover gets there"
 
+    measured = one_of(
+        ended="the rover did not get there; state of the first goal: {state}",
+        no_end="the rover did not get there; state of the first goal: no end of it came",
+    )
+
     @property
-    def measured(self) -> str:
-        """How it ended."""
-        return self.found
+    def which_measured(self) -> str:
+        """Whether it ended."""
+        return "ended" if self.state else "no_end"

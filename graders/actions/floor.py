@@ -1,7 +1,7 @@
 """A rover on an empty floor, driven by the student's node.
 
-It stands in for `./roslings rover`, with one difference: it does what it was told last, for ever.
-A node that forgets to stop it is then seen to forget.
+It stands in for `./roslings rover`, and like that it stops by itself when commands cease, only
+sooner. A node that forgets to stop it is seen by the last command that it gave.
 """
 
 from __future__ import annotations
@@ -13,26 +13,29 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Literal
 
-from roslings.capabilities.robot.record import CommandSeen, DriveSeen, PoseSeen, RobotSeen
+from roslings.capabilities.robot.record import CommandSeen, PoseSeen, RobotDriveSeen, RobotSeen
 from roslings.course import TopicContract
 from roslings.evidence import Endpoint
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
-from roslings.matching import nearest_endpoint
 from roslings.probe.content import UnknownType, message_class
 from roslings.probe.probe import Probe, offering
+from roslings.seen.matching import nearest_endpoint
 from roslings_rover.rover import Box, Motion, Pose, Rover, World
 from roslings_rover.rover.node import LONGEST_PAUSE_S, ODOM_EVERY_S, STEP_S, odometry
 
 FLOOR = World(room=Box(-100.0, -100.0, 100.0, 100.0))
+COMMAND_LASTS_S = 0.5
+"""No stop leaves a node after Ctrl-C, so the robot itself must notice. The card says so, too."""
+
 KNOWS_AFTER = 3
 """So many messages after the two are joined, a node knows where the robot is."""
 
 LAST_ONLY = 1
 """A subscription that was joined late asks for what it missed, and has nothing before it got that.
 
-With one message kept, Fast DDS says with each message that the earlier ones are gone; with more it
-says so every 3 s, its `heartbeat_period`, and a node would not know where the robot is until then.
+With one message kept, Fast DDS says with each message that the earlier ones are gone. With more it
+says so every 3 s, its `heartbeat_period`. A node would not know where the robot is until then.
 """
 
 HEARD_S = 0.01
@@ -48,7 +51,7 @@ DIAGONAL_RAD = (math.radians(35), math.radians(55))
 
 
 class Robot:
-    """A rover in real time that tells where it is and does what it is told.
+    """A rover in real time that tells where it is and does what it is told, for a while.
 
     A context manager: leaving the block ends its thread and its end of the topics.
     """
@@ -57,13 +60,14 @@ class Robot:
         self._probe, self._rover = probe, rover
         self._lock = threading.Lock()
         self._closing = threading.Event()
-        self._ear: Any = None
-        self._voice: Any = None
+        self._command_subscription: Any = None
+        self._odom_publisher: Any = None
+        self._commanded_s = -math.inf
         self.told = 0
         """Messages sent while somebody was there to hear them."""
         self.heard = False
         """The reader has said that it got one, if it is one that says so (reliable)."""
-        self.seen = DriveSeen()
+        self.seen = RobotDriveSeen()
 
     def __enter__(self) -> Robot:
         self._probe.seen.recording(RobotSeen).drive = self.seen
@@ -74,8 +78,8 @@ class Robot:
     def __exit__(self, *_: object) -> None:
         self._closing.set()
         self._thread.join()
-        if self._ear is not None:
-            self._probe.eye.destroy_subscription(self._ear)
+        if self._command_subscription is not None:
+            self._probe.node.destroy_subscription(self._command_subscription)
 
     @property
     def pose(self) -> Pose:
@@ -86,8 +90,8 @@ class Robot:
     def is_known(self) -> bool:
         """The node has been told often enough, and its reader got one.
 
-        That we have found the reader does not say that it has found us: on a busy computer what
-        is sent in between, for seconds, is dropped there.
+        We have found the reader, but that does not say that it has found us. On a busy computer,
+        what is sent in between is dropped there, for seconds.
         """
         return self.told >= KNOWS_AFTER and self.heard
 
@@ -105,7 +109,7 @@ class Robot:
         return math.hypot(x_m - self.pose.x_m, y_m - self.pose.y_m)
 
     def listen_to(self, topic: str, type_: str) -> None:
-        """Do what is said on this topic. Nothing where its type has no speeds.
+        """Do what is said on this topic, `COMMAND_LASTS_S` long; nothing of a type without speeds.
 
         >>> robot.listen_to(CMD_VEL.topic, CMD_VEL.type)
         """
@@ -116,24 +120,27 @@ class Robot:
         except UnknownType:
             return
         quality = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
-        self._ear = self._probe.eye.create_subscription(commands, topic, self._hear, quality)
+        self._command_subscription = self._probe.node.create_subscription(
+            commands, topic, self._hear, quality
+        )
 
-    def speak_to(self, ear: Endpoint) -> None:
+    def speak_to(self, subscription: Endpoint) -> None:
         """Tell this subscription where it is.
 
-        >>> robot.speak_to(ear)
+        >>> robot.speak_to(subscription)
         """
         from nav_msgs.msg import Odometry
 
-        eye = self._probe.eye
-        quality = offering(ear.qos, depth=LAST_ONLY)
-        self._voice = eye.create_publisher(Odometry, ear.topic, quality)
+        probe_node = self._probe.node
+        quality = offering(subscription.qos, depth=LAST_ONLY)
+        self._odom_publisher = probe_node.create_publisher(Odometry, subscription.topic, quality)
 
     def _hear(self, twist: Any) -> None:
         try:
             motion = Motion(twist.linear.x, twist.angular.z)
             with self._lock:
                 self._rover.drive(motion)
+                self._commanded_s = time.monotonic()
         except (AttributeError, ValueError):  # another type; a speed that is no number
             return
         command = CommandSeen(
@@ -150,6 +157,8 @@ class Robot:
         while not self._closing.wait(STEP_S):
             now_s = time.monotonic()
             with self._lock:
+                if now_s - self._commanded_s > COMMAND_LASTS_S:
+                    self._rover.drive(Motion())
                 self._rover.step(min(now_s - stepped_s, LONGEST_PAUSE_S))
             stepped_s = now_s
             if now_s - told_s >= ODOM_EVERY_S:
@@ -166,9 +175,9 @@ class Robot:
                 heading_rad=round(pose.heading_rad, KEPT_DECIMALS),
             )
         )
-        if self._voice is not None and self._voice.get_subscription_count():
-            stamp = self._probe.eye.get_clock().now().to_msg()
-            self._voice.publish(odometry(self._rover, stamp))
+        if self._odom_publisher is not None and self._odom_publisher.get_subscription_count():
+            stamp = self._probe.node.get_clock().now().to_msg()
+            self._odom_publisher.publish(odometry(self._rover, stamp))
             self.told += 1
             self.heard = self.heard or self._is_confirmed()
 
@@ -176,7 +185,7 @@ class Robot:
         """A reader that confirms nothing (best effort) is not waited for."""
         from rclpy.duration import Duration
 
-        return bool(self._voice.wait_for_all_acked(Duration(seconds=HEARD_S)))
+        return bool(self._odom_publisher.wait_for_all_acked(Duration(seconds=HEARD_S)))
 
 
 @contextmanager
@@ -190,11 +199,11 @@ def robot_beside(
     """
     with Robot(scene.probe, Rover(FLOOR, pose)) as robot:
         commands = _found(scene, "publisher", driven_by)
-        ear = _found(scene, "subscription", tells)
+        subscription = _found(scene, "subscription", tells)
         if commands:
             robot.listen_to(commands.topic, commands.type)
-        if ear and ear.type == tells.type:
-            robot.speak_to(ear)
+        if subscription and subscription.type == tells.type:
+            robot.speak_to(subscription)
             scene.until(lambda: robot.is_known, FIRST_MESSAGE_WITHIN_S)
         yield robot
 

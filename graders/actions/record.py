@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from roslings.capabilities.actions.record import GoalSeen
-from roslings.capabilities.robot.record import DriveSeen
+from roslings.capabilities.robot.record import RobotDriveSeen
 
 
-def stopped_after_s(goal: GoalSeen, drive: DriveSeen) -> float | None:
+def stopped_after_s(goal: GoalSeen, drive: RobotDriveSeen) -> float | None:
     """From the request to cancel to the command after which the robot was never told to move.
 
     None where the last command tells it to move.

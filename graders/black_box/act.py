@@ -18,7 +18,7 @@ from roslings.experiment.own_time import PATIENCE_S, OwnTime
 from roslings.experiment.scene import Scene
 from roslings_rover.models.drives import held
 from roslings_rover.models.drives.recording import of_topic
-from roslings_rover.models.drives.unknown import Drive, unknown_drive, without
+from roslings_rover.models.drives.unknown import RecordedDrive, unknown_drive, without
 from roslings_rover.rover.black_box import write_drive
 
 READS_WITHIN_S = 30.0
@@ -34,12 +34,14 @@ class Giver:
     def __init__(self, scene: Scene, reader: BagReaderContract) -> None:
         self._scene, self._reader = scene, reader
 
-    def drive(self) -> Drive:
+    def drive(self) -> RecordedDrive:
         """One that nobody knows, with gaps on both sides of the card's limit."""
         seed = int(self._scene.between(0, 1) * SEEDS)
         return unknown_drive(seed, self._reader.odometry, self._reader.gap_periods)
 
-    def give(self, label: str, drive: Drive, storage: str = "", split_s: float = 0.0) -> None:
+    def give(
+        self, label: str, drive: RecordedDrive, storage: str = "", split_s: float = 0.0
+    ) -> None:
         """A bag with this drive; the first storage of the card where none is named."""
         path = self._place(label)
         write_drive(drive, path, storage or self._reader.storages[0], split_s)
@@ -82,7 +84,7 @@ class Giver:
         return not process.alive
 
 
-def holding(drive: Drive, reader: BagReaderContract) -> DriveHeld:
+def holding(drive: RecordedDrive, reader: BagReaderContract) -> DriveHeld:
     """The truth about a drive.
 
     >>> holding(giver.drive(), READER)
@@ -102,7 +104,7 @@ def holding(drive: Drive, reader: BagReaderContract) -> DriveHeld:
     )
 
 
-def _topic(drive: Drive, name: str) -> TopicHeld:
+def _topic(drive: RecordedDrive, name: str) -> TopicHeld:
     times = [each.time_ns for each in of_topic(drive.said, name)]
     usual_s = held.usual_period_s(times)
     return TopicHeld(name=name, count=len(times), rate_hz=1 / usual_s if usual_s else 0.0)

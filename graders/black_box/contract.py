@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import string
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from pydantic import Field, model_validator
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected, Promise, Stimulus
+from roslings.course.contract import CardWords, Contract, Expected, Promise, Stimulus
 from roslings.course.kinds import Kind
-
-if TYPE_CHECKING:
-    from roslings.course import Card
 
 LINES: Mapping[str, frozenset[str]] = {
     "duration": frozenset({"seconds"}),
@@ -77,7 +74,7 @@ class DiagnosisContract(Contract):
     )
 
 
-class BagWords(Contract):
+class BagWords(CardWords):
     """What a card may say of the package."""
 
     reads_bags: BagReaderContract | None = None
@@ -97,7 +94,7 @@ def shown(template: str) -> str:
     return template.format(**{field: field.upper() for field in _fields(template)})
 
 
-def rows(card: Card) -> Iterable[Row]:
+def rows(card: BagWords) -> Iterable[Row]:
     """The program that reads bags, and the diagnosis."""
     if card.reads_bags:
         yield from _reader_rows(card.reads_bags)

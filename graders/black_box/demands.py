@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from graders.black_box import diagnosis as diagnoses
 from graders.black_box.contract import (
@@ -22,6 +23,7 @@ from graders.black_box.faults import (
     NoDiagnosis,
     NoDriveNotTold,
     NoGap,
+    Number,
     OtherRover,
     ReadingFails,
     ReadingNeverEnds,
@@ -30,15 +32,21 @@ from graders.black_box.faults import (
     TooFewFound,
     UnknownTopicTold,
     UnreadableDiagnosis,
+    WhenRead,
+    Where,
     WrongNumber,
 )
 from graders.black_box.lines import Template, Told
+from graders.black_box.reasons import NoBagGiven
 from graders.black_box.record import BagGiven, BagsSeen, DriveHeld, PauseHeld
 from roslings.judge.demands import require_steady
-from roslings.judge.faults import NothingToJudge
+from roslings.judge.faults.sentences import Text
 from roslings.judge.views import Demand, ExperimentView, PackageView, ProcessView
-from roslings.judge.words import describe_end
-from roslings_rover.models.drives.sick_rover import NoName, Planted, may_be, sick_rover
+from roslings.judge.words import end_of
+from roslings_rover.models.drives.sick_rover import NotARoverName, Planted, may_be, sick_rover
+
+Whole = Literal["duration", "distance", "top_speed"]
+"""Numbers of a whole bag."""
 
 RATE_WITHIN = 0.01
 """The jitter of a timer moves the median, and other right ways to find the usual period."""
@@ -60,7 +68,7 @@ class Reading:
     def holds(self) -> DriveHeld:
         """What is in the bag. Raises NothingToJudge."""
         if self.given.holds is None:
-            raise NothingToJudge("there was nothing to tell of this bag")
+            raise NoBagGiven("empty")
         return self.given.holds
 
     def told(self, line: LineContract) -> list[Told]:
@@ -111,7 +119,7 @@ def _reading(experiment: ExperimentView, reader: BagReaderContract, label: str) 
     for given in experiment.seen.part(BagsSeen).given:
         if given.label == label and label in experiment.seen.processes:
             return Reading(reader, given, experiment.labelled(label))
-    raise NothingToJudge("the program was not given this bag")
+    raise NoBagGiven("not_given")
 
 
 def read_to_the_end(reader: BagReaderContract, label: str, of: str) -> Demand[ExperimentView]:
@@ -119,24 +127,24 @@ def read_to_the_end(reader: BagReaderContract, label: str, of: str) -> Demand[Ex
 
     def demand(experiment: ExperimentView) -> None:
         process = _reading(experiment, reader, label).process
-        _require_end(experiment, process, f"when it has read {of}")
+        _require_end(experiment, process, WhenRead(of))
         if process.seen.status != 0:
-            how, log = describe_end(process.seen), process.last_lines()
-            raise ReadingFails(reader.executable, how, of, log=log)
+            end, log = end_of(process.seen), process.last_lines()
+            raise ReadingFails(reader.executable, end, of, log=log)
         if not process.texts:
             raise TellsNothing(reader.executable, of)
 
     return demand
 
 
-def _require_end(experiment: ExperimentView, process: ProcessView, when: str) -> None:
+def _require_end(experiment: ExperimentView, process: ProcessView, when: Text) -> None:
     if not process.seen.ended_by_itself:
         require_steady(experiment.seen.stall_s)
         log = process.last_lines()
         raise ReadingNeverEnds(process.seen.executable, process.ran_s, when, log=log)
 
 
-def tell(reader: BagReaderContract, label: str, line: str, field: str) -> Demand[ExperimentView]:
+def tell(reader: BagReaderContract, label: str, line: Whole, field: str) -> Demand[ExperimentView]:
     """One number of the whole bag: its `duration`, `distance` or `top_speed`."""
     contract = reader.lines[line]
 
@@ -145,12 +153,16 @@ def tell(reader: BagReaderContract, label: str, line: str, field: str) -> Demand
         wanted = getattr(reading.holds, TRUTHS[line])
         told = reading.told_once(contract)[field]
         if not reading.is_near(told, wanted):
-            raise WrongNumber(line.replace("_", " "), reading.number(wanted), told, contract.about)
+            raise WrongNumber(Number(line), reading.number(wanted), told, contract.about)
 
     return demand
 
 
-TRUTHS = {"duration": "duration_s", "distance": "distance_m", "top_speed": "top_speed_m_s"}
+TRUTHS: Mapping[Whole, str] = {
+    "duration": "duration_s",
+    "distance": "distance_m",
+    "top_speed": "top_speed_m_s",
+}
 
 
 def tell_counts(reader: BagReaderContract, label: str) -> Demand[ExperimentView]:
@@ -162,7 +174,7 @@ def tell_counts(reader: BagReaderContract, label: str) -> Demand[ExperimentView]
         for topic in reading.holds.topics:
             told = reading.told_once(contract, topic.name)["count"]
             if int(told) != topic.count:
-                what = f"messages on {topic.name}"
+                what = Number("count", topic.name)
                 raise WrongNumber(what, str(topic.count), told, contract.about)
         there = tuple(topic.name for topic in reading.holds.topics)
         for each in reading.told(contract):
@@ -182,7 +194,7 @@ def tell_rates(reader: BagReaderContract, label: str) -> Demand[ExperimentView]:
             told = reading.told_once(contract, topic.name)["rate"]
             off = abs(float(told) - topic.rate_hz)
             if off > RATE_WITHIN * topic.rate_hz + 10.0**-reader.decimals:
-                what = f"rate of {topic.name} in Hz"
+                what = Number("rate", topic.name)
                 raise WrongNumber(what, reading.number(topic.rate_hz), told, contract.about)
 
     return demand
@@ -261,7 +273,7 @@ def _refuse(
     def demand(experiment: ExperimentView) -> None:
         reading = _reading(experiment, reader, label)
         process = reading.process
-        _require_end(experiment, process, f"where {refusal.when}")
+        _require_end(experiment, process, Where(refusal.when))
         line = refusal.log.format(path=reading.given.path, topic=reader.odometry)
         is_told = any(text.strip() == line for text in process.texts)
         if is_told and process.seen.status == refusal.exit_code:
@@ -274,7 +286,7 @@ def _refuse(
             refusal.exit_code,
             near,
             is_told,
-            describe_end(process.seen),
+            end_of(process.seen),
             log=process.last_lines(),
         )
 
@@ -291,8 +303,9 @@ def be_of_its_own_rover(path: str, contract: DiagnosisContract) -> Demand[Packag
         found = _diagnosis(package, path)
         try:
             sick_rover(found.name, contract.faults)
-        except NoName:
-            raise UnreadableDiagnosis(path, f"no rover has the name {found.name!r}") from None
+        except NotARoverName:
+            nobody = diagnoses.Problem("no_rover", said=found.name)
+            raise UnreadableDiagnosis(path, nobody) from None
         handed_in_as = package.files.handed_in_as
         if not may_be(found.name, handed_in_as, f"{package.lab} {package.files.name}"):
             raise OtherRover(found.name, handed_in_as)
@@ -306,8 +319,8 @@ def _diagnosis(package: PackageView, path: str) -> diagnoses.Diagnosis:
         raise NoDiagnosis(path)
     try:
         return diagnoses.read(text)
-    except diagnoses.Unreadable as problem:
-        raise UnreadableDiagnosis(path, str(problem)) from None
+    except diagnoses.Unreadable as error:
+        raise UnreadableDiagnosis(path, error.problem) from None
 
 
 def find(count: int, path: str, contract: DiagnosisContract) -> Demand[PackageView]:
@@ -318,7 +331,7 @@ def find(count: int, path: str, contract: DiagnosisContract) -> Demand[PackageVi
         truth: tuple[Planted, ...] = sick_rover(found.name, contract.faults).planted
         tally = diagnoses.tally(found.entries, truth, contract.number_within)
         if tally.net < count:
-            near, again = tuple(map(str, tally.near)), tuple(map(str, tally.again))
-            raise TooFewFound(count, len(tally.right), len(tally.wrong), near, again)
+            right, wrong = len(tally.right), len(tally.wrong)
+            raise TooFewFound(count, right, wrong, tally.near, tally.again)
 
     return demand

@@ -4,31 +4,84 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Literal
 
 import yaml
 
 from roslings.course.written_yaml import load
+from roslings.judge.faults.sentences import SentencePart, one_of, plural
 from roslings_rover.models.drives.faults import FAULTS
 from roslings_rover.models.drives.sick_rover import Planted
 
 MOST_ENTRIES = 50
+MOST_CHARACTERS = 40
 
 
-class Unreadable(ValueError):
-    """The text is no diagnosis; the message says why."""
+Kind = Literal[
+    "no_yaml_line",
+    "no_yaml",
+    "no_keys",
+    "no_name",
+    "no_rover",
+    "no_list",
+    "many",
+    "entry",
+    "fault",
+    "topic",
+    "no_number",
+]
+"""Why nobody can judge a diagnosis."""
 
 
 @dataclass(frozen=True)
-class Entry:
+class Problem(SentencePart):
+    """Why nobody can judge a diagnosis."""
+
+    kind: Kind
+    number: int = 0
+    """Of the line, or of the entry; of many, how many."""
+    said: str = ""
+    """What stands there, or what the YAML reader says of it."""
+    text = one_of(
+        no_yaml_line="line {number} is no YAML: {said}",
+        no_yaml="it is no YAML",
+        no_keys="it has no keys `name` and `faults`",
+        no_name="`name` is empty; write the name that you made your rover with",
+        no_rover="no rover has the name {said!r}",
+        no_list="`faults` is no list; each entry begins with a dash",
+        many=plural(
+            "number", one="`faults` has {number} entry", other="`faults` has {number} entries"
+        ),
+        entry="entry {number} does not have the keys `fault`, `topic` and `number`",
+        fault="entry {number}: {said!r} is none of the ten faults",
+        topic="entry {number}: a topic begins with a slash, and {said!r} does not",
+        no_number="entry {number}: {said!r} is no number; write no unit behind it",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """What it is."""
+        return self.kind
+
+
+class Unreadable(ValueError):
+    """The text is no diagnosis."""
+
+    def __init__(self, kind: Kind, number: int = 0, said: object = "") -> None:
+        """Of what a student wrote, as much is kept as a line can show."""
+        cut = said if kind == "no_yaml_line" else str(said)[:MOST_CHARACTERS]
+        self.problem = Problem(kind, number, f"{cut}")
+        super().__init__(str(self.problem))
+
+
+@dataclass(frozen=True)
+class Entry(SentencePart):
     """One fault that somebody has found."""
 
     fault: str
     topic: str
     number: float
-
-    def __str__(self) -> str:
-        return f"{self.fault} of {self.topic}"
+    text = "{fault} of {topic}"
 
 
 @dataclass(frozen=True)
@@ -63,39 +116,39 @@ def read(text: str) -> Diagnosis:
         said = load(text)
     except yaml.MarkedYAMLError as error:
         line = error.problem_mark.line + 1 if error.problem_mark else 1
-        raise Unreadable(f"line {line} is no YAML: {error.problem}") from None
+        raise Unreadable("no_yaml_line", line, error.problem) from None
     except (yaml.YAMLError, ValueError, RecursionError):
-        raise Unreadable("it is no YAML") from None
+        raise Unreadable("no_yaml") from None
     if not isinstance(said, dict):
-        raise Unreadable("it has no keys `name` and `faults`")
+        raise Unreadable("no_keys")
     return Diagnosis(_name(said.get("name")), tuple(_entries(said.get("faults"))))
 
 
-def _name(said: Any) -> str:
+def _name(said: object) -> str:
     if isinstance(said, bool) or not isinstance(said, str | int) or not str(said).strip():
-        raise Unreadable("`name` is empty; write the name that you made your rover with")
+        raise Unreadable("no_name")
     return str(said).strip()
 
 
-def _entries(said: Any) -> Iterator[Entry]:
+def _entries(said: object) -> Iterator[Entry]:
     if not isinstance(said, list):
-        raise Unreadable("`faults` is no list; each entry begins with a dash")
+        raise Unreadable("no_list")
     if len(said) > MOST_ENTRIES:
-        raise Unreadable(f"`faults` has {len(said)} entries")
+        raise Unreadable("many", len(said))
     for number, each in enumerate(said, 1):
-        yield _entry(f"entry {number}", each)
+        yield _entry(number, each)
 
 
-def _entry(which: str, said: Any) -> Entry:
+def _entry(place: int, said: object) -> Entry:
     if not isinstance(said, dict) or not {"fault", "topic", "number"} <= set(said):
-        raise Unreadable(f"{which} does not have the keys `fault`, `topic` and `number`")
+        raise Unreadable("entry", place)
     fault, topic, number = said["fault"], said["topic"], said["number"]
     if not isinstance(fault, str) or fault not in FAULTS:
-        raise Unreadable(f"{which}: {str(fault)[:40]!r} is none of the ten faults")
+        raise Unreadable("fault", place, fault)
     if not isinstance(topic, str) or not topic.startswith("/"):
-        raise Unreadable(f"{which}: a topic begins with a slash, and {str(topic)[:40]!r} does not")
+        raise Unreadable("topic", place, topic)
     if isinstance(number, bool) or not isinstance(number, int | float):
-        raise Unreadable(f"{which}: {str(number)[:40]!r} is no number; write no unit behind it")
+        raise Unreadable("no_number", place, number)
     return Entry(fault, topic, float(number))
 
 

@@ -2,11 +2,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Literal
 
+from graders.black_box.diagnosis import Entry, Problem
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.ends import End
+from roslings.judge.faults.processes import READ_THE_LINES, shows_error
+from roslings.judge.faults.sentences import SentencePart, Text, one_of, plural, some_of
+
+COMPARE = "Compare your line with this one, letter by letter; a path is written in full."
+RETURN = "main() returns the exit code: `return {exit_code}`."
+
+
+@dataclass(frozen=True)
+class WhenRead(SentencePart):
+    """When a program that reads something has done it."""
+
+    of: str
+    text = "when it has read {of}"
+
+
+@dataclass(frozen=True)
+class Where(SentencePart):
+    """The case that a card speaks of, in its words."""
+
+    case: str
+    text = "where {case}"
+
+
+@dataclass(frozen=True)
+class Number(SentencePart):
+    """What a number tells."""
+
+    of: Literal["duration", "distance", "top_speed", "count", "rate"]
+    topic: str = ""
+    text = one_of(
+        duration="duration",
+        distance="distance",
+        top_speed="top speed",
+        count="messages on {topic}",
+        rate="rate of {topic} in Hz",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """Which number it is."""
+        return self.of
 
 
 @dataclass(eq=False)
@@ -14,11 +56,11 @@ class ReadingFails(Fault):
     """The program ends with an error, or with another exit code."""
 
     executable: str
-    how: str
+    end: End
     of: str
     why = "Who starts a program in a script sees by its exit code whether all went well."
     expected = "{executable} reads {of}, and ends by itself with exit code 0"
-    measured = "it ended with {how}"
+    measured = "it ended with {end}"
     hint = (
         "Read the last lines below: they name the file, the line and the mistake. A type that is"
         " not installed belongs to a topic whose messages need not be deserialized."
@@ -31,7 +73,7 @@ class ReadingNeverEnds(Fault):
 
     executable: str
     seconds: float
-    when: str
+    when: Text
     why = "A program that tells about a file has one task, and ends after it."
     expected = "{executable} ends by itself {when}"
     measured = "after {seconds:.0f} s it was still running"
@@ -64,12 +106,22 @@ class LineMissing(Fault):
     expected = "a line `{line}`"
     hint = "Compare the text that you write with the card: blanks, colons and units, too."
 
+    measured = one_of(
+        near="it wrote `{near}`",
+        some=plural(
+            "wrote",
+            one="its only line is not like it",
+            other="none of its {wrote} lines is like it",
+        ),
+        none="it wrote no line",
+    )
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """The line that is nearest to it."""
         if self.near is not None:
-            return f"it wrote `{self.near}`"
-        return f"none of its {self.wrote} lines is like it" if self.wrote else "it wrote no line"
+            return "near"
+        return "some" if self.wrote else "none"
 
 
 @dataclass(eq=False)
@@ -81,7 +133,7 @@ class LineTwice(Fault):
     was_seen = True
     why = "Of two lines about one thing, nobody knows which one is right."
     expected = "one line `{line}`"
-    measured = "it wrote {times} of them"
+    measured = plural("times", one="it wrote {times} of them", other="it wrote {times} of them")
     hint = "Does what writes it stand inside of the loop over all messages?"
 
 
@@ -89,7 +141,7 @@ class LineTwice(Fault):
 class WrongNumber(Fault):
     """A number is not what the bag holds."""
 
-    what: str
+    what: Number
     wanted: str
     found: str
     about: str
@@ -112,10 +164,7 @@ class UnknownTopicTold(Fault):
     hint = "Where does your code take the names of the topics from?"
     mend = "get_all_topics_and_types() of the reader gives the topics of this bag."
 
-    @property
-    def expected(self) -> str:
-        """The topics that are there."""
-        return f"lines about the topics of the bag: {', '.join(self.there)}"
+    expected = "lines about the topics of the bag: {there}"
 
 
 @dataclass(eq=False)
@@ -136,18 +185,21 @@ class GapMissed(Fault):
         " message before the gap."
     )
 
+    measured = one_of(
+        told="it wrote {quoted}",
+        right="of the gaps of {topic} it wrote only {quoted}",
+        none="it wrote no line about a gap of {topic}",
+    )
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """What is told of this topic."""
-        if self.told:
-            return f"it wrote {_quoted(self.told)}"
-        if self.right:
-            return f"of the gaps of {self.topic} it wrote only {_quoted(self.right)}"
-        return f"it wrote no line about a gap of {self.topic}"
+        return "told" if self.told else "right" if self.right else "none"
 
-
-def _quoted(lines: Iterable[str]) -> str:
-    return ", ".join(f"`{line}`" for line in lines)
+    @property
+    def quoted(self) -> tuple[str, ...]:
+        """The lines about this topic."""
+        return tuple(f"`{line}`" for line in self.told or self.right)
 
 
 @dataclass(eq=False)
@@ -163,12 +215,15 @@ class NoGap(Fault):
     hint = "Which period does your code compare this time with?"
     mend = "Compare each time with the usual period (median) of its own topic, times {limit:g}."
 
+    measured = one_of(
+        no_pause="it wrote `{told}`; the bag has no such pause",
+        pause="it wrote `{told}`, which is {periods:.1f} usual periods",
+    )
+
     @property
-    def measured(self) -> str:
-        """The line, and how long it really was."""
-        if self.periods is None:
-            return f"it wrote `{self.told}`; the bag has no such pause"
-        return f"it wrote `{self.told}`, which is {self.periods:.1f} usual periods"
+    def which_measured(self) -> str:
+        """Whether there is a pause at all."""
+        return "no_pause" if self.periods is None else "pause"
 
 
 @dataclass(eq=False)
@@ -181,37 +236,40 @@ class RefusalMissing(Fault):
     near: str | None
     """The line that is nearest to it; None where there is none."""
     is_told: bool
-    how: str
+    end: End
     why = "A program that cannot do its task says why, and its exit code says so, too."
     expected = "where {when}: the line `{line}`, and exit code {exit_code}"
-    cure: ClassVar[str] = ""
-    """What to do where an error ended the program."""
+
+    measured = one_of(
+        told="it wrote the line, and ended with {end}",
+        near="it wrote `{near}`; it ended with {end}",
+        none="there is no such line; it ended with {end}",
+    )
+
+    hint = one_of(cure=READ_THE_LINES, compare=COMPARE, code=RETURN)
 
     @property
-    def measured(self) -> str:
-        """Its line, or the nearest one, and how it ended."""
-        if self.is_told:
-            return f"it wrote the line, and ended with {self.how}"
-        wrote = f"it wrote `{self.near}`" if self.near else "there is no such line"
-        return f"{wrote}; it ended with {self.how}"
+    def which_measured(self) -> str:
+        """Its line, or the nearest one."""
+        return "told" if self.is_told else "near" if self.near else "none"
 
     @property
-    def hint(self) -> str:
-        """About what is wrong: the error, the line or the exit code."""
-        if any(line.startswith("Traceback") for line in self.log):
-            return self.cure
-        if not self.is_told:
-            return "Compare your line with this one, letter by letter; a path is written in full."
-        return f"main() returns the exit code: `return {self.exit_code}`."
+    def which_hint(self) -> str:
+        """What is wrong: an error, the line or the exit code."""
+        if shows_error(self.log):
+            return "cure"
+        return "code" if self.is_told else "compare"
 
 
 @dataclass(eq=False)
 class NoBagNotTold(RefusalMissing):
     """There is no bag, and the program does not say so."""
 
-    cure = (
-        "A bag that cannot be opened is a RuntimeError of reader.open(). Catch it around this one"
-        " line, write what the card says, and return the exit code."
+    hint = one_of(
+        cure="A bag that cannot be opened is a RuntimeError of reader.open(). Catch it around this"
+        " one line, write what the card says, and return the exit code.",
+        compare=COMPARE,
+        code=RETURN,
     )
 
 
@@ -219,9 +277,11 @@ class NoBagNotTold(RefusalMissing):
 class NoDriveNotTold(RefusalMissing):
     """No message tells of the drive, and the program does not say so."""
 
-    cure = (
-        "Without a message of the drive, your list of them is empty. Look at that before you reckon"
-        " with its first element."
+    hint = one_of(
+        cure="Without a message of the drive, your list of them is empty. Look at that before you"
+        " reckon with its first element.",
+        compare=COMPARE,
+        code=RETURN,
     )
 
 
@@ -244,7 +304,7 @@ class UnreadableDiagnosis(Fault):
     """The file says something that nobody can judge."""
 
     path: str
-    problem: str
+    problem: Problem
     why = "A program reads the diagnosis, so its form counts."
     expected = "{path} with `name`, and under `faults` entries with `fault`, `topic` and `number`"
     measured = "{problem}"
@@ -274,33 +334,36 @@ class TooFewFound(Fault):
     wanted: int
     right: int
     wrong: int
-    near: tuple[str, ...]
-    again: tuple[str, ...]
+    near: tuple[Entry, ...]
+    again: tuple[Entry, ...]
     """Entries about what an earlier one is about."""
     why = "On a robot, a wrong diagnosis costs as much time as a right one saves."
 
-    @property
-    def expected(self) -> str:
-        """So many."""
-        return f"right entries less wrong ones: at least {self.wanted}"
+    expected = "right entries less wrong ones: at least {wanted}"
+    measured = some_of(
+        between="; ",
+        right="{right} right",
+        wrong="{wrong} with a fault that its topic does not have",
+        again="made a second time: {again}",
+        near="the number alone is wrong in: {near}",
+    )
+    hint = one_of(
+        again="Take out the second entry: it costs as much as a right one gives.",
+        near="Measure again what the table of step 6 asks for: which messages, which unit?",
+        wrong="Take out what you have no proof for: it costs as much as a right one gives.",
+        missing="Go on in the order of step 6: what is there, how often, until when, who offers"
+        " what.",
+    )
 
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> tuple[str, ...]:
         """What was counted."""
-        wrong = f"; {self.wrong} with a fault that its topic does not have" if self.wrong else ""
-        near = f"; the number alone is wrong in: {', '.join(self.near)}" if self.near else ""
-        again = f"; made a second time: {', '.join(self.again)}" if self.again else ""
-        return f"{self.right} right{wrong}{again}{near}"
+        counted = {"wrong": self.wrong, "again": self.again, "near": self.near}
+        return "right", *(name for name, found in counted.items() if found)
 
     @property
-    def hint(self) -> str:
-        """What to do about it."""
+    def which_hint(self) -> str:
+        """What to do about it first."""
         if self.again:
-            return "Take out the second entry: it costs as much as a right one gives."
-        if self.near:
-            return "Measure again what the table of step 6 asks for: which messages, which unit?"
-        if self.wrong:
-            return "Take out what you have no proof for: it costs as much as a right one gives."
-        return (
-            "Go on in the order of step 6: what is there, how often, until when, who offers what."
-        )
+            return "again"
+        return "near" if self.near else "wrong" if self.wrong else "missing"

@@ -5,13 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graders.black_box.record import BagGiven, BagsSeen
+from ros2_on_pip.language import Text, said
 from ros2_on_pip.markup import Markup, tag
 from roslings.evidence import Evidence
 from roslings.report.html.timeline_svg import table
 
-BAG = ("what", "in the bag")
-TOPICS = ("topic", "messages", "Hz")
-PAUSES = ("topic", "seconds", "from", "usual periods")
+TOPIC = Text("page.bags.topic", "topic")
+BAG = (Text("page.bags.what", "what"), Text("page.bags.in", "in the bag"))
+TOPICS = (TOPIC, Text("page.bags.messages", "messages"), Text("page.bags.hz", "Hz"))
+PAUSES = (
+    TOPIC,
+    Text("page.bags.seconds", "seconds"),
+    Text("page.bags.from", "from"),
+    Text("page.bags.periods", "usual periods"),
+)
 
 
 def sections(evidence: Evidence) -> Iterator[Markup]:
@@ -23,16 +30,17 @@ def sections(evidence: Evidence) -> Iterator[Markup]:
         if bag.holds
     ]
     if given:
-        yield tag("section", tag("h2", "Bags that the program got"), *map(_figure, given))
+        title = said("page.bags", "Bags that the program got")
+        yield tag("section", tag("h2", title), *map(_figure, given))
 
 
 def _figure(bag: BagGiven) -> Markup:
     holds = bag.holds
     assert holds is not None
     whole = [
-        ("duration", f"{holds.duration_s:.2f} s"),
-        ("distance", f"{holds.distance_m:.2f} m"),
-        ("top speed", f"{holds.top_speed_m_s:.2f} m/s"),
+        (said("page.bags.duration", "duration"), f"{holds.duration_s:.2f} s"),
+        (said("page.bags.distance", "distance"), f"{holds.distance_m:.2f} m"),
+        (said("page.bags.top_speed", "top speed"), f"{holds.top_speed_m_s:.2f} m/s"),
     ]
     topics = [(each.name, str(each.count), f"{each.rate_hz:.2f}") for each in holds.topics]
     pauses = [
@@ -43,7 +51,7 @@ def _figure(bag: BagGiven) -> Markup:
     return tag(
         "figure",
         tag("h3", name),
-        table(f"the drive in {name}", BAG, whole),
-        table(f"topics of {name}", TOPICS, topics),
-        table(f"pauses of {name}", PAUSES, pauses),
+        table(said("page.bags.drive", "the drive in {bag}", bag=name), BAG, whole),
+        table(said("page.bags.topics", "topics of {bag}", bag=name), TOPICS, topics),
+        table(said("page.bags.pauses", "pauses of {bag}", bag=name), PAUSES, pauses),
     )

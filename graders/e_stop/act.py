@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from graders.e_stop.contract import HostsContract, StopContract
 from graders.e_stop.record import DriveSeen, EStopSeen, HostsSeen, MoveSeen, PressSeen, StopSeen
@@ -20,7 +19,9 @@ from roslings.capabilities.qos.contract import TimesContract
 from roslings.capabilities.services.calling import Caller
 from roslings.capabilities.services.contract import AnswerContract, ServiceContract
 from roslings.capabilities.services.record import ServicesSeen
+from roslings.capabilities.topics.full import full_values
 from roslings.course import NodeContract, TopicContract
+from roslings.course.contract import Plain
 from roslings.experiment import Scene
 from roslings.experiment.missed import hears, says
 from roslings.experiment.start import PLAIN
@@ -39,8 +40,8 @@ STOPS_WITHIN_S = 2.0
 STANDS_WITHIN_S = 1.0
 STEADY_S, HOLDS_S, QUIET_S = 0.6, 0.6, 0.4
 FAR_WITHIN_S = 30.0
-"""Of announcements between two computers, one in ten is lost, and the middleware asks once a second
-whether one is missing: of 80 nodes that found each other here, two needed seven seconds."""
+"""Of announcements between two computers, one in ten is lost. The middleware asks once a second
+whether one is missing. Of 80 nodes that found each other here, two needed seven seconds."""
 
 INTERRUPT_SLACK_S = 1.0
 Command = Mapping[str, float]
@@ -97,7 +98,7 @@ def joiner_plan(topic: TopicContract) -> Plan:
 @contextmanager
 def beside(scene: Scene, name: str, *plans: Plan, host: Host | None = None) -> Iterator[Companion]:
     """A companion that plays all of `plans`, until the block ends; its name is hidden."""
-    plan: dict[str, Any] = {}
+    plan: dict[str, object] = {}
     for each in plans:
         plan |= each
     plan["name"] = f"_roslings_{name}"
@@ -110,24 +111,51 @@ def beside(scene: Scene, name: str, *plans: Plan, host: Host | None = None) -> I
 # --- a guard -----------------------------------------------------------------------------------
 
 
+class DrawnCommands:
+    """What an operator wants, one command after the other.
+
+    Each field is above zero in one command, and below it in the next.
+
+    `backward`: the first one drives backward.
+    """
+
+    def __init__(self, scene: Scene, topic: TopicContract, backward: bool = False) -> None:
+        self._scene, self._topic, self._backward = scene, topic, backward
+
+    def another(self) -> dict[str, float]:
+        """By names of fields, with dots."""
+        between = self._scene.between
+        wanted = full_values(self._topic.type, between, begins_below_zero=self._backward)
+        self._backward = not self._backward
+        return wanted
+
+
 class Watched:
     """A guard between an operator and motors of ours: let drive, and given reasons to stop."""
 
-    def __init__(self, scene: Scene, operator: Companion, motors: Companion) -> None:
+    def __init__(
+        self, scene: Scene, operator: Companion, motors: Companion, commands: DrawnCommands
+    ) -> None:
         self._scene, self._operator, self._motors = scene, operator, motors
+        self._commands = commands
         self.seen = scene.seen.recording(EStopSeen)
         self.moving = False
         """It has driven as it was told, the last time that it should have."""
 
-    def drives(self, part: str, after: str, within_s: float = SHOWS_WITHIN_S) -> bool:
+    def drives(
+        self,
+        part: str,
+        after: str,
+        within_s: float = SHOWS_WITHIN_S,
+        steady_s: float = STEADY_S,
+    ) -> bool:
         """Nothing speaks against driving now: give a new command, and watch the motors."""
-        command = self._command()
         began_ns = time.monotonic_ns()
         with timing(self._scene, part):
-            self._operator.tell(drive=command)
+            command = self.command_anew()
             self.moving = self._scene.until_own(lambda: self._shows(command), within_s)
             if self.moving:
-                self._scene.until(lambda: False, STEADY_S)
+                self._scene.until(lambda: False, steady_s)
             until_ns = time.monotonic_ns()
         self.seen.drives.append(
             DriveSeen(part=part, after=after, command=command, began_ns=began_ns, until_ns=until_ns)
@@ -173,27 +201,26 @@ class Watched:
 
         >>> guard.close()
         """
-        self.seen.moves += [
-            MoveSeen(at_ns=each["at"], fields=_moving(each["moved"])) for each in self._moved()
-        ]
+        self.seen.moves += self._moved()
         self.seen.sent_ns += [each["sent"] for each in self._operator.told("sent")]
 
-    def _command(self) -> dict[str, float]:
-        """Forward and to a side, as nobody can know before."""
-        between = self._scene.between
-        return {"linear.x": between(0.1, 0.9), "angular.z": between(0.1, 0.9)}
+    def command_anew(self) -> dict[str, float]:
+        """Let the operator want something else, as nobody can know before, in every field."""
+        command = self._commands.another()
+        self._operator.tell(drive=command)
+        return command
 
-    def _moved(self) -> Sequence[dict[str, Any]]:
-        return self._motors.told("moved")
+    def _moved(self, since: int = 0) -> list[MoveSeen]:
+        """What the motors were told; -1: only the last of it."""
+        told = self._motors.told("moved")[since:]
+        return [MoveSeen(at_ns=each["at"], fields=_moving(each["moved"])) for each in told]
 
     def _shows(self, command: Command) -> bool:
-        moved = self._moved()
-        return bool(moved) and _moving(moved[-1]["moved"]) == command
+        return any(move.fields == command for move in self._moved(-1))
 
     def _stand_since(self, began_ns: int) -> bool:
         """The last message came after the reason, and says zero."""
-        moved = self._moved()
-        return bool(moved) and moved[-1]["at"] > began_ns and not any(moved[-1]["moved"].values())
+        return any(move.at_ns > began_ns and not move.fields for move in self._moved(-1))
 
 
 def _moving(fields: Mapping[str, float]) -> dict[str, float]:
@@ -202,14 +229,16 @@ def _moving(fields: Mapping[str, float]) -> dict[str, float]:
 
 
 @contextmanager
-def watching(scene: Scene, operator: Companion, motors: Companion) -> Iterator[Watched]:
+def watching(
+    scene: Scene, operator: Companion, motors: Companion, commands: DrawnCommands
+) -> Iterator[Watched]:
     """A guard that is watched until the block ends; then all that was seen of it is kept.
 
-    >>> with watching(scene, operator, motors) as guard:
+    >>> with watching(scene, operator, motors, DrawnCommands(scene, RAW)) as guard:
     ...     guard.drives("pressed", "the start")
     ...     guard.stops("pressed", STOPS["pressed"], "/e_stop says true", press)
     """
-    watched = Watched(scene, operator, motors)
+    watched = Watched(scene, operator, motors, commands)
     try:
         yield watched
     finally:
@@ -228,14 +257,15 @@ class Pressing:
         self.seen = scene.seen.recording(EStopSeen)
 
     def press_each(self, answers: Sequence[AnswerContract]) -> None:
-        """Call once for each answer; after each, look what somebody gets who comes then.
+        """Call for each of these answers; after each, look what somebody gets who comes then.
 
-        What was said at the start has been heard before: on a busy computer it can come so late
-        that it looks like an answer to the first call.
+        An answer may come again: somebody presses twice. What was said at the start has been heard
+        before. On a busy computer it can come so late that it looks like an answer to the first
+        call.
         """
         self._scene.until(lambda: self._scene.heard(self._topic) > 0, SHOWS_WITHIN_S)
-        for number, answer in enumerate(answers):
-            if self._press(number, answer):
+        for answer in answers:
+            if self._press(self._service.answers.index(answer), answer):
                 words = ", ".join(f"{name}: {value}" for name, value in answer.request.items())
                 self.join(f"a call with {words.lower()}", answer.state)
 
@@ -257,7 +287,7 @@ class Pressing:
         )
         return answered
 
-    def join(self, after: str, wanted: Any) -> None:
+    def join(self, after: str, wanted: Plain | None) -> None:
         """Subscribe now, and listen to what is there already."""
         come_late(self._scene, self._topic, after, wanted, self._said)
 

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from pydantic import Field
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected, Promise, Stimulus
+from roslings.course.contract import (
+    CardWords,
+    Contract,
+    Expected,
+    NodeWords,
+    Promise,
+    Stimulus,
+)
 from roslings.course.kinds import Kind
-
-if TYPE_CHECKING:
-    from roslings.course import Card, NodeContract
 
 
 class StopContract(Contract):
@@ -33,27 +37,38 @@ class HostsContract(Contract):
     )
 
 
-class GuardWords(Contract):
+class GuardWords(NodeWords):
     """What a card may say of a node."""
 
     stops: dict[str, StopContract] = Field(
         default_factory=dict, description="By a word for the grader, e.g. `pressed`"
     )
+    walks: Annotated[int, Stimulus] = Field(
+        default=0,
+        ge=0,
+        description="Orders of events; those beyond the grader's own are drawn for each check",
+    )
 
 
-class HostsWords(Contract):
+class HostsWords(CardWords):
     """What a card may say of the package."""
 
     hosts: HostsContract | None = None
 
 
-def rows(node: NodeContract) -> Iterable[Row]:
+def rows(node: GuardWords) -> Iterable[Row]:
     """Each reason to stop."""
     for stop in node.stops.values():
         yield "stops when", f"{stop.when}; within {stop.within_s:g} s; the reason is `{stop.says}`"
+    if node.walks:
+        yield (
+            f"in {node.walks} orders",
+            "reasons begin and end while others hold, and a second button comes and goes; the rover"
+            " drives when no reason is left",
+        )
 
 
-def package_rows(card: Card) -> Iterable[Row]:
+def package_rows(card: HostsWords) -> Iterable[Row]:
     """The two computers, and what the link between them does."""
     if hosts := card.hosts:
         yield (

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import Any
 
 from graders.e_stop import faults
 from graders.e_stop.contract import StopContract
+from graders.e_stop.reasons import LateCommand, NotWatched
 from graders.e_stop.record import DriveSeen, EStopSeen, HostsSeen, MoveSeen, StopSeen
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.qos.demands import values_told
@@ -17,8 +17,11 @@ from roslings.course import NodeContract, TopicContract
 from roslings.course.contract import as_typed
 from roslings.course.files import written
 from roslings.judge.demands import most_similar, require_its_time, require_steady
-from roslings.judge.faults import Inconclusive, NothingToJudge
+from roslings.judge.faults import Inconclusive
+from roslings.judge.faults.moments import Awaited
+from roslings.judge.faults.sentences import Text
 from roslings.judge.lines import texts_of, times
+from roslings.judge.values import field_of
 from roslings.judge.views import Demand, ExperimentView, ProcessView
 
 DROVE_NS = 1_000_000_000
@@ -31,7 +34,7 @@ LONGEST_PAUSE_S = 0.5
 """Ten turns of a timer: whoever leaves out so many is held up by itself."""
 
 LINK_REPAIRS_S = 4.0
-"""On a link that loses packets, what finds each other is told again after seconds; who gets no
+"""On a link that loses packets, what finds each other is told again after seconds. Who gets no
 processor for longer than this needs several times as long."""
 
 MOST_LATE_PART = 0.75
@@ -47,11 +50,12 @@ def tell_each_press(service: ServiceContract, topic: TopicContract) -> Demand[Ex
     def demand(experiment: ExperimentView) -> None:
         presses = experiment.seen.part(EStopSeen).presses
         if not presses:
-            raise NothingToJudge(f"{service.service} could not be called")
+            raise NotWatched("uncalled", service.service)
         messages = experiment.topic(topic).before_ctrl_c
-        for press, answer in zip(presses, service.answers, strict=False):
+        for press in presses:
+            answer = next(each for each in service.answers if each.request == press.asked)
             said = [
-                _data(message.content)
+                field_of(message.content, "data")
                 for message in messages
                 if press.began_ns <= message.arrival_ns <= press.until_ns
             ]
@@ -67,10 +71,6 @@ def tell_each_press(service: ServiceContract, topic: TopicContract) -> Demand[Ex
     return demand
 
 
-def _data(content: Any) -> Any:
-    return content.get("data") if isinstance(content, dict) else None
-
-
 # --- a guard -----------------------------------------------------------------------------------
 
 
@@ -79,13 +79,13 @@ def stand(topic: TopicContract, part: str) -> Demand[ExperimentView]:
 
     def demand(experiment: ExperimentView) -> None:
         for stop in _stops_in(experiment, part):
-            moves = _moves(experiment, stop.began_ns, stop.until_ns)
+            moves = moves_between(experiment, stop.began_ns, stop.until_ns)
             if not moves:
                 require_steady(experiment.seen.stall_s)
                 raise faults.TellsTheMotorsNothing(topic.topic, stop.cause)
             for move in moves:
                 if move.fields:
-                    raise faults.DrivesUnasked(topic.topic, stop.cause, _fields(move.fields))
+                    raise faults.DrivesUnasked(topic.topic, stop.cause, fields_told(move.fields))
 
     return demand
 
@@ -106,14 +106,26 @@ def drive(
     def demand(experiment: ExperimentView) -> None:
         drives = [each for each in experiment.seen.part(EStopSeen).drives if each.part in parts]
         if not drives:
-            raise NothingToJudge("the guard could not be let drive")
+            raise NotWatched("not_driven")
         for each in drives:
-            waits_s = None if steadily else LINK_REPAIRS_S
-            _judge_drive(experiment, topic.topic, each, deadline_s, again, waits_s)
-            if steadily:
-                _judge_steadiness(experiment, topic.topic, each, deadline_s)
+            judge_drive(experiment, topic.topic, each, deadline_s, again, steadily)
 
     return demand
+
+
+def judge_drive(
+    experiment: ExperimentView,
+    topic: str,
+    seen: DriveSeen,
+    deadline_s: float,
+    again: bool = True,
+    steadily: bool = True,
+) -> None:
+    """One stretch in which it should drive; the words are those of `drive`."""
+    waits_s = None if steadily else LINK_REPAIRS_S
+    _judge_drive(experiment, topic, seen, deadline_s, again, waits_s)
+    if steadily:
+        _judge_steadiness(experiment, topic, seen, deadline_s)
 
 
 def _judge_drive(
@@ -125,33 +137,33 @@ def _judge_drive(
     waits_s: float | None,
 ) -> None:
     """Who was held up for `waits_s` is not judged; None: for as long as was waited."""
-    moves = _moves(experiment, seen.began_ns, seen.until_ns)
+    moves = moves_between(experiment, seen.began_ns, seen.until_ns)
     if not moves:
         require_steady(experiment.seen.stall_s)
-        raise faults.TellsTheMotorsNothing(topic, seen.after)
+        raise faults.TellsTheMotorsNothing(topic, faults.in_words(seen.after))
     first = next((n for n, move in enumerate(moves) if move.fields == seen.command), None)
-    words = (topic, seen.after, _fields(seen.command))
+    words = (topic, seen.after, fields_told(seen.command))
     if first is None:
         _require_commands(experiment, seen, deadline_s)
-        require_its_time(experiment.seen, seen.part, waits_s, "the operator's command")
+        require_its_time(experiment.seen, seen.part, waits_s, Awaited("operator"))
         if any(move.fields for move in moves[len(moves) // 2 :]):
-            raise faults.OtherCommand(*words, _fields(moves[-1].fields))
+            raise faults.OtherCommand(*words, fields_told(moves[-1].fields))
         raise (faults.DoesNotGoOn if again else faults.StandsStill)(*words)
     for move in moves[first:]:
         if move.fields not in ({}, seen.command):
-            raise faults.OtherCommand(*words, _fields(move.fields))
+            raise faults.OtherCommand(*words, fields_told(move.fields))
 
 
 def _judge_steadiness(
     experiment: ExperimentView, topic: str, seen: DriveSeen, deadline_s: float
 ) -> None:
     """From the first command that came through, none is left out."""
-    moves = _moves(experiment, seen.began_ns, seen.until_ns)
+    moves = moves_between(experiment, seen.began_ns, seen.until_ns)
     first = next(n for n, move in enumerate(moves) if move.fields)
     if not all(move.fields for move in moves[first:]):
         _require_commands(experiment, seen, deadline_s)
-        require_its_time(experiment.seen, seen.part, deadline_s / 2, "a command")
-        raise faults.Stutters(topic, seen.after, _longest_gap_s(experiment, seen))
+        require_its_time(experiment.seen, seen.part, deadline_s / 2, Awaited("command"))
+        raise faults.Stutters(topic, faults.in_words(seen.after), _longest_gap_s(experiment, seen))
 
 
 def _require_commands(
@@ -160,10 +172,7 @@ def _require_commands(
     """Before a stop is held against the guard: the operator kept up. Raises Inconclusive."""
     gap_s = _longest_gap_s(experiment, seen)
     if gap_s > MOST_LATE_PART * deadline_s:
-        raise Inconclusive(
-            f"this computer was so busy that a command came {gap_s:.2f} s late;"
-            " close other programs and check again"
-        )
+        raise LateCommand(gap_s)
 
 
 def _longest_gap_s(experiment: ExperimentView, seen: DriveSeen | StopSeen) -> float:
@@ -187,11 +196,11 @@ def _judge_stop(experiment: ExperimentView, topic: str, stop: StopSeen, within_s
     everything = experiment.seen.part(EStopSeen).moves
     since_ns = stop.began_ns - DROVE_NS
     if not any(move.fields for move in everything if since_ns <= move.at_ns <= stop.began_ns):
-        raise NothingToJudge("it did not drive before")
-    moves = _moves(experiment, stop.began_ns, stop.until_ns)
+        raise NotWatched("did_not_drive")
+    moves = moves_between(experiment, stop.began_ns, stop.until_ns)
     if not moves:
         require_steady(experiment.seen.stall_s)
-        raise faults.TellsTheMotorsNothing(topic, f"after {stop.cause}")
+        raise faults.TellsTheMotorsNothing(topic, faults.After(stop.cause))
     driven = [move.at_ns for move in moves if move.fields]
     late_s = (max(driven, default=stop.began_ns) - stop.began_ns) / NS_PER_S
     if late_s <= within_s and not moves[-1].fields:
@@ -199,9 +208,9 @@ def _judge_stop(experiment: ExperimentView, topic: str, stop: StopSeen, within_s
         return
     if moves[-1].fields:
         watched_s = (stop.until_ns - stop.began_ns) / NS_PER_S
-        require_its_time(experiment.seen, stop.part, watched_s - within_s, "the stop")
+        require_its_time(experiment.seen, stop.part, watched_s - within_s, Awaited("stop"))
         raise faults.DoesNotStop(topic, stop.cause, within_s, watched_s)
-    require_its_time(experiment.seen, stop.part, late_s - within_s, "the stop")
+    require_its_time(experiment.seen, stop.part, late_s - within_s, Awaited("stop"))
     raise faults.StopsLate(topic, stop.cause, within_s, late_s)
 
 
@@ -216,7 +225,7 @@ def _judge_pauses(
         return
     pause_s = max((later.at_ns - one.at_ns for one, later in pairwise(moves)), default=0) / NS_PER_S
     if pause_s > LONGEST_PAUSE_S + watched_s:
-        require_its_time(experiment.seen, stop.part, pause_s - LONGEST_PAUSE_S, "a message")
+        require_its_time(experiment.seen, stop.part, pause_s - LONGEST_PAUSE_S, Awaited("message"))
         raise faults.SilentMeanwhile(topic, stop.cause, LONGEST_PAUSE_S, pause_s)
 
 
@@ -233,7 +242,7 @@ def tell_why(
         process = experiment.process(node)
         seen = [stop for stop in experiment.seen.part(EStopSeen).stops if stop.reason in stops]
         if not seen:
-            raise NothingToJudge("it was given no reason to stop")
+            raise NotWatched("no_reason")
         for stop in seen:
             line = template.format(text=stops[stop.reason].says)
             try:
@@ -242,7 +251,7 @@ def tell_why(
                 _require_commands(experiment, stop, deadline_s)
                 raise
             except faults.ReasonToldAgain:
-                require_its_time(experiment.seen, stop.part, deadline_s / 2, "an event")
+                require_its_time(experiment.seen, stop.part, deadline_s / 2, Awaited("event"))
                 raise
 
     return demand
@@ -263,17 +272,19 @@ def _stops_in(experiment: ExperimentView, part: str) -> list[StopSeen]:
     """Raises NothingToJudge where there are none."""
     stops = [stop for stop in experiment.seen.part(EStopSeen).stops if stop.part == part]
     if not stops:
-        raise NothingToJudge("it could not be watched so far")
+        raise NotWatched("not_so_far")
     return stops
 
 
-def _moves(experiment: ExperimentView, from_ns: int, to_ns: int) -> Sequence[MoveSeen]:
+def moves_between(experiment: ExperimentView, from_ns: int, to_ns: int) -> Sequence[MoveSeen]:
+    """What the motors were told then."""
     moves = experiment.seen.part(EStopSeen).moves
     return [move for move in moves if from_ns < move.at_ns <= to_ns]
 
 
-def _fields(fields: Mapping[str, float]) -> str:
-    return ", ".join(f"{name}: {value:g}" for name, value in fields.items()) or "zero"
+def fields_told(fields: Mapping[str, float]) -> Text:
+    """A command in words."""
+    return ", ".join(f"{name}: {value:g}" for name, value in fields.items()) or faults.Zero()
 
 
 # --- two computers -----------------------------------------------------------------------------
@@ -283,7 +294,7 @@ def _hosts(experiment: ExperimentView) -> HostsSeen:
     """Raises Inconclusive where this computer could not play two."""
     hosts = experiment.seen.part(EStopSeen).hosts
     if hosts is None:
-        raise NothingToJudge("the nodes were not run on two computers")
+        raise NotWatched("one_computer")
     if hosts.refused:
         raise Inconclusive(hosts.refused)
     return hosts
@@ -296,10 +307,10 @@ def be_reached(service: ServiceContract, topic: TopicContract) -> Demand[Experim
         hosts = _hosts(experiment)
         if not hosts.served:
             require_steady(experiment.seen.stall_s)
-            raise faults.NotReached(f"{service.service} is served")
+            raise faults.NotReached("service", service.service)
         if not hosts.heard:
             require_steady(experiment.seen.stall_s)
-            raise faults.NotReached(f"{topic.topic} is heard on the other one")
+            raise faults.NotReached("topic", topic.topic)
 
     return demand
 
@@ -310,7 +321,7 @@ def hear_from_afar(topic: TopicContract) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         if not _hosts(experiment).matched:
             require_steady(experiment.seen.stall_s)
-            raise faults.NotReached(f"the guard hears {topic.topic}")
+            raise faults.NotReached("guard", topic.topic)
 
     return demand
 

@@ -3,8 +3,74 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 from roslings.judge.faults import Fault
+from roslings.judge.faults.sentences import SentencePart, Text, one_of, plural
+
+
+@dataclass(frozen=True)
+class After(SentencePart):
+    """After something was done, in the words of who did it."""
+
+    cause: Text
+    text = "after {cause}"
+
+
+@dataclass(frozen=True)
+class Zero(SentencePart):
+    """A command whose fields are all zero."""
+
+    text = "zero"
+
+
+EventName = Literal[
+    "press",
+    "release",
+    "silence",
+    "command",
+    "freeze",
+    "thaw",
+    "leave",
+    "join",
+    "second_joins",
+    "second_leaves",
+]
+"""A value of `orders.Happens`."""
+
+
+@dataclass(frozen=True)
+class Happening(SentencePart):
+    """One event around a guard: a value of `orders.Happens`."""
+
+    event: EventName
+    text = one_of(
+        press="a press",
+        release="a release",
+        silence="no more commands",
+        command="a new command",
+        freeze="the button's program hangs",
+        thaw="the button's program runs on",
+        leave="the button's program ends",
+        join="a button's program begins, and says pressed",
+        second_joins="a second button begins, and says pressed",
+        second_leaves="the second button ends",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """By the event."""
+        return self.event
+
+
+HAPPENINGS = {name: Happening(name) for name in get_args(EventName)}
+"""Value of `orders.Happens` to its words."""
+
+
+def in_words(told: str) -> Text:
+    """What was done, in words; that of a walk stands in the evidence by its name."""
+    return HAPPENINGS.get(told, told)
+
 
 # --- a button ----------------------------------------------------------------------------------
 
@@ -16,7 +82,7 @@ class OtherThanPressed(Fault):
     topic: str
     asked: str
     wanted: str
-    found: str
+    found: Text
     why = "The topic is all that the guard hears of the button."
     expected = "the call with {asked} leads to one message on {topic}: {wanted}"
     measured = "it leads to: {found}"
@@ -32,7 +98,11 @@ class SaysMore(Fault):
     wanted: int
     found: int
     why = "A topic that keeps its last message need not say it again. Each message is an event."
-    expected = "at most {wanted} messages on {topic}: one at the start, and one for each call"
+    expected = plural(
+        "wanted",
+        one="at most {wanted} message on {topic}: one at the start, and one for each call",
+        other="at most {wanted} messages on {topic}: one at the start, and one for each call",
+    )
     measured = "{found}"
     hint = "Is there a timer that publishes? A latched topic needs none."
 
@@ -45,7 +115,7 @@ class TellsTheMotorsNothing(Fault):
     """No message comes to the motors."""
 
     topic: str
-    when: str
+    when: Text
     why = "Motors that hear nothing do what they were told last."
     expected = "messages on {topic} {when}"
     measured = "none came"
@@ -59,7 +129,7 @@ class StandsStill(Fault):
 
     topic: str
     when: str
-    command: str
+    command: Text
     why = "A guard that stops the rover for no reason is switched off soon, and then guards nobody."
     expected = "{when}, {topic} says what the operator wants: {command}"
     measured = "it says zero all the time"
@@ -75,8 +145,8 @@ class OtherCommand(Fault):
 
     topic: str
     when: str
-    command: str
-    found: str
+    command: Text
+    found: Text
     why = "The guard stands between the operator and the motors, and changes nothing on the way."
     expected = "{when}, {topic} says what the operator wants: {command}"
     measured = "it says: {found}"
@@ -89,7 +159,7 @@ class Stutters(Fault):
     """In the middle of a drive it stops for a moment."""
 
     topic: str
-    when: str
+    when: Text
     gap_s: float
     why = "A rover that stops and starts again and again wears its gears, and throws its load."
     expected = "{when}, {topic} says all the time what the operator wants"
@@ -103,6 +173,8 @@ class Stutters(Fault):
 @dataclass(eq=False)
 class DoesNotStop(Fault):
     """The motors go on, though there is a reason to stop."""
+
+    KNOWN_AS = "GuardDoesNotStop"
 
     topic: str
     cause: str
@@ -120,6 +192,8 @@ class DoesNotStop(Fault):
 @dataclass(eq=False)
 class StopsLate(DoesNotStop):
     """It stops, and not soon enough."""
+
+    KNOWN_AS = "GuardStopsLate"
 
     measured = "the last other command came {watched_s:.2f} s later"
     hint = "What lies between the event and your stop: a wait, a timer?"
@@ -152,7 +226,7 @@ class DrivesUnasked(Fault):
 
     topic: str
     when: str
-    found: str
+    found: Text
     why = "A robot that nobody has released must not move: somebody may stand before it."
     expected = "{when}, {topic} says zero"
     measured = "it says: {found}"
@@ -168,6 +242,37 @@ class DoesNotGoOn(StandsStill):
 
 
 @dataclass(eq=False)
+class WrongInThisOrder(Fault):
+    """One event after the other, and then the motors are told what the card does not say."""
+
+    topic: str
+    events: tuple[Happening, ...]
+    must_drive: bool
+    found: Text
+    why = "Two reasons can hold at once. When one of them ends, the other is still there."
+    expected = one_of(
+        drive="one after the other: {events}. Then {topic} says what the operator wants",
+        stand="one after the other: {events}. Then {topic} says zero",
+    )
+    measured = "it says: {found}"
+    hint = (
+        "Go through these events with a finger in your code: which of your variables change at"
+        " each, and what do they say at the end?"
+    )
+    mend = one_of(
+        drive="Look at all publishers that are alive, not at the one that has gone.",
+        stand="Keep one variable for each reason, and drive only where no reason is left.",
+    )
+
+    @property
+    def which_expected(self) -> str:
+        """What the card says."""
+        return "drive" if self.must_drive else "stand"
+
+    which_mend = which_expected
+
+
+@dataclass(eq=False)
 class ReasonNotTold(Fault):
     """The log does not say why it stopped."""
 
@@ -179,10 +284,12 @@ class ReasonNotTold(Fault):
     hint = "Where in your code does a stop begin, and what is written there?"
     mend = "Write the line where the stop begins. Text, colon and reason are those of the card."
 
+    measured = one_of(near="it writes: {near}", none="it writes nothing like it")
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """The nearest line."""
-        return f"it writes: {self.near}" if self.near else "it writes nothing like it"
+        return "near" if self.near else "none"
 
 
 @dataclass(eq=False)
@@ -194,7 +301,9 @@ class ReasonToldAgain(Fault):
     times: int
     why = "A log that says the same again and again hides all that is new."
     expected = "after {cause}, one line: {line}"
-    measured = "it stands there {times} times"
+    measured = plural(
+        "times", one="it stands there {times} time", other="it stands there {times} times"
+    )
     hint = "How often does this event come, and when is the reason a new one?"
     mend = (
         "The deadline's event comes again, for each deadline that passes. Write the line only when"
@@ -209,9 +318,21 @@ class ReasonToldAgain(Fault):
 class NotReached(Fault):
     """The nodes do not find each other across the link."""
 
-    what: str
+    what: Literal["service", "topic", "guard"]
+    name: str
+    """Of the service or the topic."""
     why = "On two computers there is often no multicast: in schools, and on many a Wi-Fi."
-    expected = "on two computers, {what}"
+    expected = one_of(
+        service="on two computers, {name} is served",
+        topic="on two computers, {name} is heard on the other one",
+        guard="on two computers, the guard hears {name}",
+    )
+
+    @property
+    def which_expected(self) -> str:
+        """What should be reached."""
+        return self.what
+
     measured = "they did not find each other, though ROS_STATIC_PEERS names the other computer"
     hint = (
         "The check sets ROS_STATIC_PEERS and ROS_AUTOMATIC_DISCOVERY_RANGE, as you would in a"

@@ -68,7 +68,7 @@ class Player:
             start_parameter_services=False,
             parameter_overrides=plain,
         )
-        self._voice = threading.Lock()
+        self._telling = threading.Lock()
         self._command: Any = None
         for part in ("commands", "button", "motors", "joiner", "client"):
             if part in plan:
@@ -77,7 +77,7 @@ class Player:
 
     def tell(self, words: dict[str, Any]) -> None:
         """One line to whoever began this."""
-        with self._voice:
+        with self._telling:
             print(json.dumps(words), flush=True)
 
     def obey(self, words: dict[str, Any]) -> None:
@@ -119,9 +119,9 @@ class Player:
         self._button = self.node.create_publisher(
             self._button_kind, plan["topic"], profile, event_callbacks=_no_events("pub")
         )
-        self._alone = self.node.create_timer(0.05, self._look_for_ear)
+        self._alone = self.node.create_timer(0.05, self._look_for_subscription)
 
-    def _look_for_ear(self) -> None:
+    def _look_for_subscription(self) -> None:
         if self._button.get_subscription_count():
             self._alone.cancel()
             self.tell({"joined": True})

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from pydantic import Field
 
 from roslings.record import Columns, PartSeen, Record
@@ -41,7 +39,7 @@ class StopSeen(Record):
 class PressSeen(Record):
     """One call of the button's service, and what its topic said meanwhile."""
 
-    asked: dict[str, Any]
+    asked: dict[str, object]
     began_ns: int
     until_ns: int
 
@@ -51,13 +49,20 @@ class HostsSeen(Record):
 
     refused: str = Field(default="", description="Why there could be no two computers")
     matched: bool = Field(default=False, description="The guard hears the operator")
-    heard: list[Any] = Field(
+    heard: list[object] = Field(
         default_factory=list, description="What a late joiner on the guard's computer got"
     )
     served: bool = Field(default=False, description="The button's service was found")
     packets: dict[str, int] = Field(
         default_factory=dict, description="`passed`, `lost`, `multicast`, `cut`"
     )
+
+
+class WalkSeen(Record):
+    """One order of events that a guard was led through; a stretch for each is a drive or a stop."""
+
+    events: list[str] = Field(description="The values of `orders.Happens`")
+    taken: int = Field(default=0, description="So many of them happened")
 
 
 class EStopSeen(PartSeen):
@@ -69,5 +74,11 @@ class EStopSeen(PartSeen):
     stops: Columns[StopSeen] = Field(default_factory=list)
     presses: Columns[PressSeen] = Field(default_factory=list)
     moves: Columns[MoveSeen] = Field(default_factory=list, description="What the motors were told")
+    walks: Columns[WalkSeen] = Field(default_factory=list)
     sent_ns: Columns[int] = Field(default_factory=list, description="The operator's commands")
     hosts: HostsSeen | None = None
+
+    @property
+    def stretches(self) -> list[DriveSeen | StopSeen]:
+        """All drives and stops."""
+        return [*self.drives, *self.stops]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from graders.pi_camera import faults
+from graders.pi_camera.reasons import NoPictureShown, PictureLost
 from roslings.capabilities.camera.demands import pixels_of, require_set
 from roslings.capabilities.camera.record import (
     SURELY_COMES_BYTES,
@@ -20,17 +21,17 @@ from roslings.course import NodeContract, TopicContract
 from roslings.course.files import written
 from roslings.evidence import LogLine, MessageSeen
 from roslings.judge.demands import most_similar, require_its_time, require_steady
-from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
+from roslings.judge.faults import Fault
+from roslings.judge.faults.moments import Awaited
 from roslings.judge.faults.writing import LoggedAgain
 from roslings.judge.lines import times
 from roslings.judge.values import as_number, field_of
 from roslings.judge.views import Demand, ExperimentView, ProcessView
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 
 LEAST_MARKED, MOST_SPOILED = 0.01, 0.02
 BALLS_PART = 0.05
 """Of the pixels around a ball, more are the ball's own."""
-SWAPPED = "its red and its blue are exchanged"
 NS_PER_S = 10**9
 
 
@@ -53,21 +54,19 @@ class Look:
     drawings: tuple[MessageSeen, ...]
 
     @property
-    def words(self) -> str:
+    def words(self) -> faults.Picture:
         """The picture in words."""
         shown = self.shown
-        ball = "a ball" if shown.ball else "no ball"
         idle = shown.step - shown.width * (1 if shown.encoding == "mono8" else 3)
-        rows = f", {idle} idle bytes a row" if idle else ""
-        size = f"{shown.width} x {shown.height}"
-        return f"a picture with {ball} ({shown.encoding}, {size}{rows})"
+        size_px = (shown.width, shown.height)
+        return faults.Picture(bool(shown.ball), shown.encoding, size_px, idle)
 
 
 def looks(experiment: ExperimentView, screen: Screen, part: str) -> list[Look]:
     """The pictures of one part, with their answers. Raises NothingToJudge where none was shown."""
     found = _looks(experiment, screen, [part])
     if not found:
-        raise NothingToJudge("no picture could be shown to the node")
+        raise NoPictureShown("not_shown")
     return found
 
 
@@ -106,8 +105,9 @@ def _answers(
 
 
 def _stamp_ns(message: MessageSeen) -> int:
-    stamp = field_of(message.content, "header.stamp") or {}
-    return int(stamp.get("sec", 0)) * NS_PER_S + int(stamp.get("nanosec", 0))
+    parts = (field_of(message.content, f"header.stamp.{part}") for part in ("sec", "nanosec"))
+    seconds, rest_ns = (int(as_number(part) or 0) for part in parts)
+    return seconds * NS_PER_S + rest_ns
 
 
 # --- where the ball is -------------------------------------------------------------------------
@@ -141,14 +141,11 @@ def _missing(experiment: ExperimentView, screen: Screen, look: Look) -> Fault:
     if look.drawings:
         return faults.NotFound(*words)
     require_steady(experiment.seen.stall_s)
-    require_its_time(experiment.seen, shown.part, None, "the answer to a picture")
+    require_its_time(experiment.seen, shown.part, None, Awaited("picture_answer"))
     if not shown.turned:
         return faults.TooSlowForPictures(*words)
     if _may_be_lost(look):
-        raise Inconclusive(
-            f"a large picture was lost on the way {shown.tries} times: this computer was too busy;"
-            " close other programs and check again"
-        )
+        raise PictureLost(shown.tries)
     return faults.Unanswered(*words)
 
 
@@ -215,7 +212,7 @@ def cut_its_rows(screen: Screen, part: str) -> Demand[ExperimentView]:
     return demand
 
 
-def _first_idle(experiment: ExperimentView, screen: Screen, part: str) -> str:
+def _first_idle(experiment: ExperimentView, screen: Screen, part: str) -> faults.Picture:
     found = list(looks(experiment, screen, part))
     return next((look.words for look in found if _has_idle_bytes(look.shown)), found[0].words)
 
@@ -295,7 +292,7 @@ def carry_the_header(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentV
             for message in messages
         ]
         if not answers:
-            raise NothingToJudge("nothing was published after a picture")
+            raise NoPictureShown("no_answer")
         for answer in answers:
             _require_header(*answer)
 
@@ -304,26 +301,14 @@ def carry_the_header(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentV
 
 def _require_header(topic: str, shown: PictureShown, message: MessageSeen) -> None:
     if (stamp_ns := _stamp_ns(message)) != shown.stamp_ns:
-        raise faults.StampNotCarried(
-            topic, "header.stamp", _seconds(shown.stamp_ns), _stamp_words(stamp_ns, shown.stamp_ns)
-        )
+        found_s, wanted_s = stamp_ns / NS_PER_S, shown.stamp_ns / NS_PER_S
+        later_s = (stamp_ns - shown.stamp_ns) / NS_PER_S
+        other = faults.OtherStamp(found_s, later_s)
+        raise faults.StampNotCarried(topic, "header.stamp", f"{wanted_s:.3f} s", other)
     found = field_of(message.content, "header.frame_id")
     if found != shown.frame_id:
-        words = f"{found!r}" if found else "it is empty"
+        words = f"{found!r}" if found else faults.Empty()
         raise faults.StampNotCarried(topic, "header.frame_id", repr(shown.frame_id), words)
-
-
-def _seconds(stamp_ns: int) -> str:
-    return f"{stamp_ns / NS_PER_S:.3f} s"
-
-
-def _stamp_words(found_ns: int, wanted_ns: int) -> str:
-    if found_ns == 0:
-        return "it is 0: nobody filled it"
-    later_s = (found_ns - wanted_ns) / NS_PER_S
-    return (
-        f"it is {_seconds(found_ns)}: {abs(later_s):.3f} s {'later' if later_s > 0 else 'earlier'}"
-    )
 
 
 def answer_once(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]:
@@ -335,7 +320,7 @@ def answer_once(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         found = _looks(experiment, screen, parts)
         if not any(look.places or look.drawings for look in found):
-            raise NothingToJudge("nothing was published after a picture")
+            raise NoPictureShown("no_answer")
         for look in found:
             _require_one_each(screen, look)
 
@@ -354,7 +339,7 @@ def draw_on_each(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]
     def demand(experiment: ExperimentView) -> None:
         found = _looks(experiment, screen, parts)
         if not any(look.drawings for look in found):
-            raise NothingToJudge("no picture came back")
+            raise NoPictureShown("not_back")
         for look in found:
             for message in look.drawings:
                 _require_drawing(screen, look, message)
@@ -372,7 +357,7 @@ def _surely_came(experiment: ExperimentView, look: Look) -> bool:
     if not look.shown.turned or look.shown.bytes > SURELY_COMES_BYTES:
         return False
     require_steady(experiment.seen.stall_s)
-    require_its_time(experiment.seen, look.shown.part, None, "the answer to a picture")
+    require_its_time(experiment.seen, look.shown.part, None, Awaited("picture_answer"))
     return True
 
 
@@ -381,19 +366,20 @@ def _require_drawing(screen: Screen, look: Look, message: MessageSeen) -> None:
     wanted = (look.shown.width, look.shown.height, str(screen.draws.fields["encoding"]))
     found = (content["width"], content["height"], content["encoding"])
 
-    def wrong(what: str) -> faults.WrongDrawing:
+    def wrong(kind: faults.DrawingKind) -> faults.WrongDrawing:
+        what = faults.Drawing(kind, *found, pixels.bytes, content["step"])
         return faults.WrongDrawing(screen.draws.topic, look.words, what)
 
     if found != wanted:
-        raise wrong(f"it says {found[0]} x {found[1]} in {found[2]}")
+        raise wrong("size")
     if content["step"] != 3 * content["width"] or pixels.bytes != content["step"] * wanted[1]:
-        raise wrong(f"it has {pixels.bytes} bytes, and a step of {content['step']}")
+        raise wrong("bytes")
     if pixels.spoiled is None or pixels.spoiled > MOST_SPOILED:
         raise wrong(_how_spoiled(pixels.swapped_off))
     if _is_swapped(pixels):
-        raise wrong(SWAPPED)
+        raise wrong("swapped")
     if look.shown.ball and look.places and (pixels.marked or 0.0) < LEAST_MARKED:
-        raise wrong("there is no ring around the ball")
+        raise wrong("no_ring")
 
 
 def _is_swapped(pixels: PixelsSeen) -> bool:
@@ -405,10 +391,8 @@ def _is_swapped(pixels: PixelsSeen) -> bool:
     return marked is not None and back is not None and marked > BALLS_PART and back < marked / 2
 
 
-def _how_spoiled(swapped: float | None) -> str:
-    if swapped is not None and swapped <= MOST_SPOILED:
-        return SWAPPED
-    return "it is another picture than the one that was shown"
+def _how_spoiled(swapped: float | None) -> faults.DrawingKind:
+    return "swapped" if swapped is not None and swapped <= MOST_SPOILED else "another"
 
 
 # --- pictures that are none --------------------------------------------------------------------
@@ -426,7 +410,7 @@ def survive(screen: Screen, part: str, words: str, must_say: bool) -> Demand[Exp
             if each.part == part and each.tries
         ]
         if not shown:
-            raise NothingToJudge("no picture could be shown to the node")
+            raise NoPictureShown("not_shown")
         if process.seen.ended_by_itself and not shown[-1].turned:
             raise faults.EndedByPicture(screen.says.topic, words, log=process.last_lines())
         if must_say and not shown[-1].answered:

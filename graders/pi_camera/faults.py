@@ -3,9 +3,113 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from roslings.capabilities.camera.faults.images import OPEN_THE_PAGE
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.sentences import SentencePart, Text, one_of, plural
+
+# --- parts of sentences ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Picture(SentencePart):
+    """A picture that was shown to the node."""
+
+    has_ball: bool
+    encoding: str
+    size_px: tuple[int, int]
+    idle: int
+    """Bytes at the end of each row that are no pixels."""
+    text = one_of(
+        ball="a picture with a ball ({encoding}, {size_px[0]} x {size_px[1]})",
+        no_ball="a picture with no ball ({encoding}, {size_px[0]} x {size_px[1]})",
+        ball_idle=plural(
+            "idle",
+            one="a picture with a ball ({encoding}, {size_px[0]} x {size_px[1]}, {idle} idle byte a"
+            " row)",
+            other="a picture with a ball ({encoding}, {size_px[0]} x {size_px[1]}, {idle} idle"
+            " bytes a row)",
+        ),
+        no_ball_idle=plural(
+            "idle",
+            one="a picture with no ball ({encoding}, {size_px[0]} x {size_px[1]}, {idle} idle byte"
+            " a row)",
+            other="a picture with no ball ({encoding}, {size_px[0]} x {size_px[1]}, {idle} idle"
+            " bytes a row)",
+        ),
+    )
+
+    @property
+    def which_text(self) -> str:
+        """What is in it, and whether its rows have idle bytes."""
+        ball = "ball" if self.has_ball else "no_ball"
+        return f"{ball}_idle" if self.idle else ball
+
+
+@dataclass(frozen=True)
+class OtherStamp(SentencePart):
+    """A stamp that is not its picture's."""
+
+    found_s: float
+    later_s: float
+    """Than the picture's; below 0 it is earlier."""
+    text = one_of(
+        empty="it is 0: nobody filled it",
+        later="it is {found_s:.3f} s: {off_s:.3f} s later",
+        earlier="it is {found_s:.3f} s: {off_s:.3f} s earlier",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """What is wrong with it."""
+        return "empty" if not self.found_s else "later" if self.later_s > 0 else "earlier"
+
+    @property
+    def off_s(self) -> float:
+        """By how much."""
+        return abs(self.later_s)
+
+
+@dataclass(frozen=True)
+class Empty(SentencePart):
+    """A text that nobody filled."""
+
+    text = "it is empty"
+
+
+DrawingKind = Literal["size", "bytes", "swapped", "no_ring", "another"]
+
+
+@dataclass(frozen=True)
+class Drawing(SentencePart):
+    """What is the matter with a picture that came back."""
+
+    kind: DrawingKind
+    width: int
+    height: int
+    encoding: str
+    bytes: int
+    step: int
+    text = one_of(
+        size="it says {width} x {height} in {encoding}",
+        bytes=plural(
+            "bytes",
+            one="it has {bytes} byte, and a step of {step}",
+            other="it has {bytes} bytes, and a step of {step}",
+        ),
+        swapped="its red and its blue are exchanged",
+        no_ring="there is no ring around the ball",
+        another="it is another picture than the one that was shown",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """What it is."""
+        return self.kind
+
+
+# --- the faults --------------------------------------------------------------------------------
 
 
 @dataclass(eq=False)
@@ -13,7 +117,7 @@ class WrongPlace(Fault):
     """The ball is elsewhere."""
 
     topic: str
-    picture: str
+    picture: Text
     wanted: tuple[float, float]
     found: tuple[float, float]
     within: float
@@ -23,23 +127,10 @@ class WrongPlace(Fault):
         " row, from the upper left corner."
     )
 
-    @property
-    def expected(self) -> str:
-        """Where it is."""
-        x, y = self.wanted
-        return (
-            f"{self.picture}: on {self.topic} x {x:.1f}, y {y:.1f}, within {self.within:g} pixels"
-        )
-
-    @property
-    def measured(self) -> str:
-        """Where it was said to be."""
-        return self._place
-
-    @property
-    def _place(self) -> str:
-        x, y = self.found
-        return f"x {x:.1f}, y {y:.1f}"
+    expected = (
+        "{picture}: on {topic} x {wanted[0]:.1f}, y {wanted[1]:.1f}, within {within:g} pixels"
+    )
+    measured = "x {found[0]:.1f}, y {found[1]:.1f}"
 
 
 @dataclass(eq=False)
@@ -54,7 +145,7 @@ class XAndYSwapped(WrongPlace):
         "numpy counts rows first: picture[row, column]. OpenCV's functions give x first: (column,"
         " row). x is the column."
     )
-    measured = "{_place}: x and y are exchanged"
+    measured = "x {found[0]:.1f}, y {found[1]:.1f}: x and y are exchanged"
 
 
 @dataclass(eq=False)
@@ -63,7 +154,7 @@ class CornerNotCentre(WrongPlace):
 
     hint = "Which point of the ball's box do you publish?"
     mend = "cv2.boundingRect gives the upper left corner. Add half of the width and the height."
-    measured = "{_place}: the corner of the box around the ball"
+    measured = "x {found[0]:.1f}, y {found[1]:.1f}: the corner of the box around the ball"
 
 
 @dataclass(eq=False)
@@ -72,7 +163,7 @@ class FromTheMiddle(WrongPlace):
 
     hint = "From where does your code count?"
     mend = "Count from the upper left corner of the picture, to the right and down."
-    measured = "{_place}: counted from the middle of the picture"
+    measured = "x {found[0]:.1f}, y {found[1]:.1f}: counted from the middle of the picture"
 
 
 @dataclass(eq=False)
@@ -85,10 +176,7 @@ class NotAFloat(WrongPlace):
         " as nonsense: write float(VALUE)."
     )
 
-    @property
-    def measured(self) -> str:
-        """What came."""
-        return f"x {self.found[0]:g}, y {self.found[1]:g}: that is no number of yours"
+    measured = "x {found[0]:g}, y {found[1]:g}: that is no number of yours"
 
 
 @dataclass(eq=False)
@@ -100,7 +188,7 @@ class FoundTheDecoy(WrongPlace):
         "There are two balls: take the one whose hue is nearest to ball_hue. Hues are 0 to 179 in"
         " OpenCV, half of the degrees that others count."
     )
-    measured = "{_place}: there is a ball of another colour"
+    measured = "x {found[0]:.1f}, y {found[1]:.1f}: there is a ball of another colour"
 
 
 @dataclass(eq=False)
@@ -112,7 +200,10 @@ class RedAndBlueExchanged(FoundTheDecoy):
         "Look at image.encoding: rgb8 has red first. Turn it into bgr8 with cv2.cvtColor, before"
         " you make hues of it."
     )
-    measured = "{_place}: the other ball, which is yours when red and blue are exchanged"
+    measured = (
+        "x {found[0]:.1f}, y {found[1]:.1f}: the other ball, which is yours when red and blue are"
+        " exchanged"
+    )
 
 
 @dataclass(eq=False)
@@ -124,12 +215,11 @@ class HueIgnored(FoundTheDecoy):
         "Read the parameter for each picture: self.get_parameter('ball_hue').value. What __init__"
         " read stays as it was then."
     )
-    measured = "{_place}: the ball of the colour before"
-
-    @property
-    def expected(self) -> str:
-        """Where the ball of the new colour is."""
-        return f"after ball_hue was set, {super().expected}"
+    measured = "x {found[0]:.1f}, y {found[1]:.1f}: the ball of the colour before"
+    expected = (
+        "after ball_hue was set, {picture}: on {topic} x {wanted[0]:.1f}, y {wanted[1]:.1f}, within"
+        " {within:g} pixels"
+    )
 
 
 @dataclass(eq=False)
@@ -141,12 +231,11 @@ class HueAtStartIgnored(FoundTheDecoy):
         "Read the parameter for each picture: self.get_parameter('ball_hue').value. A variable that"
         " only a change sets does not know the value of the start."
     )
-    measured = "{_place}: the ball of the default colour"
-
-    @property
-    def expected(self) -> str:
-        """Where the ball of that colour is."""
-        return f"started with another ball_hue, {super().expected}"
+    measured = "x {found[0]:.1f}, y {found[1]:.1f}: the ball of the default colour"
+    expected = (
+        "started with another ball_hue, {picture}: on {topic} x {wanted[0]:.1f}, y {wanted[1]:.1f},"
+        " within {within:g} pixels"
+    )
 
 
 @dataclass(eq=False)
@@ -154,7 +243,7 @@ class NotFound(Fault):
     """There is a ball, and the node says nothing."""
 
     topic: str
-    picture: str
+    picture: Text
     why = "A ball that is not seen is a ball that is run over."
     hint = (
         "Save the mask of this picture (cv2.imwrite) and look at it. Is the ball white in it?"
@@ -181,7 +270,7 @@ class Unanswered(Fault):
     """The node does nothing with a picture."""
 
     topic: str
-    picture: str
+    picture: Text
     why = "Who waits for an answer waits for ever."
     hint = "Is the function of your subscription reached? Log a line in it, and see."
     expected = "{picture}: a message on {topic}"
@@ -216,11 +305,16 @@ class RowsNotCut(EndedByPicture):
         " reshape(height, step). Then cut: [:, :width * channels]. Then make columns."
     )
 
+    measured = one_of(
+        ended="the node ended with an error: the idle bytes at the end of each row were taken for"
+        " pixels",
+        wrong="the idle bytes at the end of each row were taken for pixels",
+    )
+
     @property
-    def measured(self) -> str:  # type: ignore[override]
+    def which_measured(self) -> str:
         """What it did with them."""
-        ended = "the node ended with an error: " if self.log else ""
-        return f"{ended}the idle bytes at the end of each row were taken for pixels"
+        return "ended" if self.log else "wrong"
 
 
 @dataclass(eq=False)
@@ -228,27 +322,24 @@ class FoundWhereNothingIs(Fault):
     """A ball was found in a picture without one."""
 
     topic: str
-    picture: str
+    picture: Text
     found: tuple[float, float]
     why = "The robot drives to a ball that is not there."
     expected = "{picture}: nothing on {topic}"
 
     hint = "What does your code do where the mask is empty? And what does noise leave in the mask?"
 
-    @property
-    def mend(self) -> str:
-        """The place that stands for none, or what noise looks like."""
-        if self.found == (0.0, 0.0):
-            return "Where your search finds nothing, publish no message: 0, 0 is a place, too."
-        return (
-            "Noise has every hue, but grey has little saturation: ask for more of it. Take single"
-            " dots away (MORPH_OPEN), and ask for a least size."
-        )
+    mend = one_of(
+        origin="Where your search finds nothing, publish no message: 0, 0 is a place, too.",
+        noise="Noise has every hue, but grey has little saturation: ask for more of it. Take single"
+        " dots away (MORPH_OPEN), and ask for a least size.",
+    )
+    measured = "a ball at x {found[0]:.1f}, y {found[1]:.1f}"
 
     @property
-    def measured(self) -> str:
-        """What was said."""
-        return f"a ball at x {self.found[0]:.1f}, y {self.found[1]:.1f}"
+    def which_mend(self) -> str:
+        """The place that stands for none, or what noise looks like."""
+        return "origin" if self.found == (0.0, 0.0) else "noise"
 
 
 @dataclass(eq=False)
@@ -258,7 +349,7 @@ class StampNotCarried(Fault):
     topic: str
     what: str
     wanted: str
-    found: str
+    found: Text
     why = (
         "An answer comes later than its picture. Only by the stamp does anyone know where the"
         " robot was when the picture was made."
@@ -267,10 +358,7 @@ class StampNotCarried(Fault):
     mend = "Copy the whole header: ANSWER.header = image.header"
     expected = "on {topic}, {what} of the picture: {wanted}"
 
-    @property
-    def measured(self) -> str:
-        """Another one."""
-        return self.found
+    measured = "{found}"
 
 
 @dataclass(eq=False)
@@ -278,8 +366,8 @@ class WrongDrawing(Fault):
     """The picture that comes back is not the one that was shown."""
 
     topic: str
-    picture: str
-    what: str
+    picture: Text
+    what: Drawing
     why = "This picture is what a person looks at, to see what the robot thinks."
     hint = "Compare each field of the picture that you publish with the picture that you drew on."
     mend = (
@@ -288,17 +376,14 @@ class WrongDrawing(Fault):
     )
     expected = "{picture}: on {topic} the same picture, with a ring around the ball"
 
-    @property
-    def measured(self) -> str:
-        """What is the matter."""
-        return self.what
+    measured = "{what}"
 
 
 @dataclass(eq=False)
 class SilentAboutPicture(Fault):
     """A bad picture, and no word about it."""
 
-    picture: str
+    picture: Text
     line: str
     similar: str | None
     why = "A camera with a broken driver sends such pictures. Without a word nobody finds out."
@@ -309,10 +394,12 @@ class SilentAboutPicture(Fault):
     )
     expected = "{picture}: a line {line!r}"
 
+    measured = one_of(another="it wrote {similar!r}", none="it wrote no such line")
+
     @property
-    def measured(self) -> str:
-        """What it wrote."""
-        return f"it wrote {self.similar!r}" if self.similar else "it wrote no such line"
+    def which_measured(self) -> str:
+        """Whether any line is like it."""
+        return "another" if self.similar else "none"
 
 
 @dataclass(eq=False)
@@ -320,20 +407,20 @@ class AnsweredTwice(Fault):
     """One picture has several answers."""
 
     topic: str
-    picture: str
+    picture: Text
     count: int
     why = "Who hears an answer takes it for news: one ball becomes two."
     hint = "From how many places in your code is publish() called, and how often?"
     mend = "Call publish() once for each picture, in the function that hears it, and in no timer."
     expected = "{picture}: one message on {topic}"
-    measured = "{count} messages"
+    measured = plural("count", one="{count} message", other="{count} messages")
 
 
 @dataclass(eq=False)
 class AnswersBadPicture(Fault):
     """Something is published after a picture that is none."""
 
-    picture: str
+    picture: Text
     topic: str
     why = "Who gets the answer believes it, and cannot know that the picture was broken."
     hint = "What does your function do after it has written the line?"
@@ -347,7 +434,7 @@ class HasDepth(Fault):
     """The place has a z."""
 
     topic: str
-    picture: str
+    picture: Text
     found: float
     why = "A place in a picture has a column and a row. z is free, so it stays 0."
     hint = "Which fields of the point does your code fill?"

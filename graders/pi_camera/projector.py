@@ -5,9 +5,8 @@ from __future__ import annotations
 import array
 import time
 from dataclasses import dataclass
-from typing import Any
 
-from graders.pi_camera.pictures import draw_cross, draw_ring, keep_picture
+from graders.pi_camera.pictures import Pixels, draw_cross, draw_ring, keep_picture
 from roslings.arena import Process
 from roslings.capabilities.camera.pixels import IMAGE, MarkLooker
 from roslings.capabilities.camera.record import (
@@ -21,10 +20,10 @@ from roslings.evidence import Endpoint
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
 from roslings.experiment.timing import accounting
-from roslings.matching import nearest_endpoint
 from roslings.probe.content import to_plain
+from roslings.seen.matching import nearest_endpoint
 from roslings_rover.camera import Encoding, Frame, Light, SyntheticCamera
-from roslings_rover.rover import Disc, Eye
+from roslings_rover.rover import Disc, PinholeCameraModel
 
 MOST_TRIES, MOST_TRIES_OF_LARGE = 2, 6
 FEWEST_TRIES = 2
@@ -57,8 +56,8 @@ class Shot:
 
         >>> frame = shot.frame(scene.seed)
         """
-        eye = Eye(self.width, self.height)
-        camera = SyntheticCamera(eye, self.light, self.encoding, self.idle_bytes, seed)
+        camera_model = PinholeCameraModel(self.width, self.height)
+        camera = SyntheticCamera(camera_model, self.light, self.encoding, self.idle_bytes, seed)
         return camera.frame([disc for disc in (self.decoy, self.ball) if disc])
 
 
@@ -104,14 +103,15 @@ class Projector:
         self._looker = MarkLooker()
         self._silent = 0
         self._worst_px = -1.0
-        self._worst: tuple[str, str, Any] | None = None
+        self._worst: tuple[str, str, Pixels] | None = None
         scene.probe.read_as_it_comes(IMAGE, self._looker.read)
         scene.probe.read_as_it_comes(POINT, to_plain)
 
     def begin(self) -> None:
         """Wait until the node listens and can answer."""
         self._scene.appears(
-            lambda: bool(self._ear() and self._draws_on()), "what hears pictures and answers them"
+            lambda: bool(self._subscription() and self._draws_on()),
+            "what hears pictures and answers them",
         )
 
     def show(self, part: str, shot: Shot) -> None:
@@ -208,17 +208,23 @@ class Projector:
 
     def _send(self, seen: PictureShown, content: bytes) -> bool:
         """Send it once more; whether there is a node that can hear it."""
-        ear = self._ear()
-        if ear is None or ear.type != IMAGE or not self._process.alive:
+        subscription = self._subscription()
+        if subscription is None or subscription.type != IMAGE or not self._process.alive:
             return False
-        sent_ns, _ = self._scene.probe.send(ear, _message(seen, content), FIRST_MESSAGE_WITHIN_S)
+        sent_ns, _ = self._scene.probe.send(
+            subscription, _message(seen, content), FIRST_MESSAGE_WITHIN_S
+        )
         seen.sent_ns = seen.sent_ns or sent_ns
         seen.tries += 1
         return True
 
     def _turned(self) -> bool:
-        ear = self._ear()
-        return bool(ear and self._process.alive and self._scene.turned(ear.node, TURNS_WITHIN_S))
+        subscription = self._subscription()
+        return bool(
+            subscription
+            and self._process.alive
+            and self._scene.turned(subscription.node, TURNS_WITHIN_S)
+        )
 
     def _wrote(self, words: str, before: int) -> bool:
         return any(words in line.text for line in self._process.lines()[before:])
@@ -230,7 +236,7 @@ class Projector:
     def _count(self, endpoint: Endpoint | None) -> int:
         return self._scene.probe.count(endpoint.topic) if endpoint else 0
 
-    def _ear(self) -> Endpoint | None:
+    def _subscription(self) -> Endpoint | None:
         graph = self._scene.seen.graph
         return nearest_endpoint(graph, "subscription", self._heard.topic, self._heard.type)
 
@@ -288,7 +294,7 @@ def _written(disc: Disc | None) -> DiscShown | None:
     return DiscShown(x_px=disc.u_px, y_px=disc.v_px, radius_px=disc.radius_px, hue=disc.hue)
 
 
-def _message(seen: PictureShown, content: bytes) -> Any:
+def _message(seen: PictureShown, content: bytes) -> object:
     from builtin_interfaces.msg import Time
     from sensor_msgs.msg import Image
 
@@ -327,8 +333,8 @@ def _key(seen: PictureShown, place: tuple[float, float] | None) -> str:
     return f"The ring is the ball; {where}."
 
 
-def _drawn(frame: Frame, ball: DiscShown, place: tuple[float, float] | None) -> Any:
-    rgb = frame.rgb().copy()
+def _drawn(frame: Frame, ball: DiscShown, place: tuple[float, float] | None) -> Pixels:
+    rgb: Pixels = frame.rgb().copy()
     draw_ring(rgb, ball.x_px, ball.y_px, ball.radius_px + 2)
     if place:
         draw_cross(rgb, *place, arm_px=max(6.0, ball.radius_px / 2))

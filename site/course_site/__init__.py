@@ -15,6 +15,7 @@ from course_site import (
     few_tags,
     glossary_page,
     grader_words,
+    html_texts,
     lab_page,
     landing,
     lesson_page,
@@ -43,6 +44,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_config_value("course_digest", "", "env")
     for part in (
         maths,
+        html_texts,
         words,
         tables,
         glossary_page,

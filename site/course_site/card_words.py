@@ -22,7 +22,8 @@ from sphinx.application import Sphinx
 
 from course_site.course import MarkdownDirective
 from roslings.course.card import Card
-from roslings.course.contract import Contract
+from roslings.course.contract import CardWords as WordsOfPackage
+from roslings.course.contract import Contract, NodeWords
 from roslings.course.files import read_tree
 from roslings.course.kinds import Kind, kind_of
 from roslings.course.labs import engine_root
@@ -33,6 +34,7 @@ UNITS = {
     "_ms": "milliseconds",
     "hz": "Hz, times a second",
     "_px": "pixels",
+    "_m": "metres",
     "within": "a part: 0.05 is 5 %",
     "loss": "a part: 0.1 is 10 %",
     "number_within": "a part: 0.1 is 10 %",
@@ -313,7 +315,36 @@ def _section(model: type[Contract], words: tuple[Word, ...]) -> str:
     long = [each.example.block for each in words if not each.holds and not _fits(each)]
     title = f"({anchor_of(model)})=\n## {title_of(model)}"
     parts = [title, f"{about} {_where(model)}", _code(_holder_example(model)), "\n".join(rows)]
-    return "\n\n".join(filter(None, [*parts, *map(_code, long)]))
+    return "\n\n".join(filter(None, [*parts, _by_class(model), *map(_code, long)]))
+
+
+def brought_to(model: type[Contract]) -> list[type[NodeWords | WordsOfPackage]]:
+    """The classes by which a grader reaches what capabilities let a card say of this."""
+    return [
+        each
+        for each in model.__mro__
+        if issubclass(each, NodeWords | WordsOfPackage)
+        and each.model_fields
+        and each.__name__ != model.__name__
+    ]
+
+
+def said_by_class(words: type[NodeWords | WordsOfPackage]) -> str:
+    """How a grader says the first of its words."""
+    thing = "NODE" if issubclass(words, NodeWords) else "CARD"
+    return f"{thing}.of({words.__name__}).{next(iter(words.model_fields))}"
+
+
+def _by_class(model: type[Contract]) -> str:
+    """Where its words come from several places; empty for a part whose words are its own."""
+    head = "| words | a grader says | and imports the class from |"
+    rows = [
+        f"| {', '.join(f'`{name}`' for name in each.model_fields)} | `{said_by_class(each)}`"
+        f" | `{each.__module__}` |"
+        for each in sorted(brought_to(model), key=lambda each: each.__name__)
+    ]
+    told = "In a grader, the words of a capability are reached by its class."
+    return "\n".join([told, "", head, "| --- | --- | --- |", *rows]) if rows else ""
 
 
 def _code(lines: str) -> str:

@@ -6,6 +6,7 @@ import hashlib
 from functools import lru_cache
 from html import escape
 from pathlib import Path
+from typing import ClassVar
 
 from docutils import nodes
 from docutils.statemachine import StringList
@@ -13,7 +14,8 @@ from sphinx.config import Config
 from sphinx.util.docutils import SphinxDirective
 
 import roslings
-from roslings_learn.lessons import Lessons, read_lessons
+from ros2_on_pip.language import said
+from roslings_learn.lessons import Day, Lessons, read_lessons
 from roslings_learn.lessons.glossary import LINK
 
 WATCHED = (
@@ -22,7 +24,10 @@ WATCHED = (
     "glossary/*.yaml",
     "labs/*/card.yaml",
     "graders/**/*.py",
+    "site/languages/**/*",
 )
+BEFORE_TRANSLATION = 15
+"""The priority of what looks at a page as its author wrote it: Sphinx translates at 20."""
 
 
 def lessons_of(config: Config) -> Lessons:
@@ -37,7 +42,7 @@ def _read(root: Path) -> Lessons:
 
 def course_digest(root: Path) -> str:
     """Changes when a page must be made anew although its own file is the same."""
-    files = [path for pattern in WATCHED for path in root.glob(pattern)]
+    files = [path for pattern in WATCHED for path in root.glob(pattern) if path.is_file()]
     own = Path(__file__).parent
     files += [*own.glob("*.py"), *own.glob("*.yaml"), *Path(roslings.__file__).parent.rglob("*.py")]
     files += Path(roslings.__file__).parent.rglob("*.md")
@@ -47,8 +52,16 @@ def course_digest(root: Path) -> str:
     return digest.hexdigest()
 
 
+def name_of(day: Day) -> str:
+    """As a person says it: `Day 3: Topics`."""
+    return said("site.day.name", "Day {day}: {title}", day=day.number, title=day.title)
+
+
 class MarkdownDirective(SphinxDirective):
     """A directive whose content is Markdown that the course's own files give."""
+
+    by_id: ClassVar[bool] = False
+    """Its texts have ids, so no translator finds them in the page, too."""
 
     def markdown(self) -> str:
         """What to show."""
@@ -60,7 +73,16 @@ class MarkdownDirective(SphinxDirective):
         holder = nodes.container()
         holder.document = self.state.document
         self.state.nested_parse(lines, self.content_offset, holder, match_titles=True)
+        if self.by_id:
+            not_in_the_page(holder)
         return holder.children
+
+
+def not_in_the_page(part: nodes.Element) -> None:
+    """Have Sphinx leave the texts of this part to their ids."""
+    for each in part.findall(nodes.TextElement):
+        if not isinstance(each, nodes.Inline):
+            each["translatable"] = False
 
 
 def inline_html(text: str) -> str:

@@ -9,7 +9,11 @@ from sphinx.application import Sphinx
 
 from course_site.course import html, lessons_of
 from course_site.path_of_days import day_attributes, labs_of
+from ros2_on_pip.language import said
+from roslings.course.titles import lab_title
 from roslings_learn.lessons import Day
+
+NO_SCRIPT = "Without JavaScript, tick it off on paper."
 
 
 def add_box(app: Sphinx, document: nodes.document, page: str) -> None:
@@ -25,11 +29,13 @@ def add_box(app: Sphinx, document: nodes.document, page: str) -> None:
 def _box(app: Sphinx, day: Day) -> str:
     return (
         f'<section class="day-box" {day_attributes(day, app.config)} aria-labelledby="day-box">'
-        f'<h2 id="day-box">Is day {day.number} done?</h2><ul class="day-needs">{_needs(app, day)}'
+        f'<h2 id="day-box">{said("site.day.is_done", "Is day {day} done?", day=day.number)}</h2>'
+        f'<ul class="day-needs">{_needs(app, day)}'
         f"</ul>{_drop(day)}"
-        f'<p><button type="button" class="button day-done" disabled>Day {day.number} is done'
+        '<p><button type="button" class="button day-done" disabled>'
+        f"{said('site.day.done', 'Day {day} is done', day=day.number)}"
         '</button></p><p class="day-state" role="status"></p>'
-        "<noscript><p>Without JavaScript, tick it off on paper.</p></noscript></section>"
+        f"<noscript><p>{said('site.day.no_script', NO_SCRIPT)}</p></noscript></section>"
     )
 
 
@@ -38,13 +44,16 @@ def _needs(app: Sphinx, day: Day) -> str:
     needs = []
     if quiz:
         count = len(quiz.questions)
+        left = said("site.day.questions", "{count} questions to answer", count=count)
+        quiz_words = said("site.day.quiz", "The quiz")
         needs.append(
-            f'<li data-need="quiz"><a href="quiz.html">The quiz</a>: <span>{count} questions to'
-            " answer</span></li>"
+            f'<li data-need="quiz"><a href="quiz.html">{quiz_words}</a>: <span>{left}</span></li>'
         )
+    load = said("site.day.load_below", "load its verdict below")
     needs += [
         f'<li data-need="lab" data-lab="{lab.name}"><a href="../../labs/{lab.name}.html">'
-        f"The lab: {escape(lab.card.title)}</a>: <span>load its verdict below</span></li>"
+        f"{said('site.day.lab', 'The lab: {title}', title=escape(lab_title(lab)))}</a>:"
+        f" <span>{load}</span></li>"
         for lab in labs_of(day)
     ]
     return "".join(needs)
@@ -56,11 +65,15 @@ def _drop(day: Day) -> str:
     if not labs:
         return ""
     command = f"./roslings check {labs[0].name} --json verdict.json"
+    write = "Write your verdict to a file, in the roslings folder:"
+    field = '<input type="file" accept=".json,application/json">'
+    load = (
+        "<label>Load the verdict: {field}</label> or drop the file here. It stays on this computer."
+    )
     return (
-        '<div class="drop"><p>Write your verdict to a file, in the roslings folder:</p>'
+        f'<div class="drop"><p>{said("site.day.write", write)}</p>'
         f"<pre>{command}</pre>"
-        '<p><label>Load the verdict: <input type="file" accept=".json,application/json"></label>'
-        " or drop the file here. It stays on this computer.</p></div>"
+        f"<p>{said('site.day.load', load, field=field)}</p></div>"
     )
 
 

@@ -18,9 +18,9 @@ from typing import Any
 from sphinx.application import Sphinx
 
 from course_site.course import MarkdownDirective
-from ros_doctor.finding import Step
+from ros_doctor.finding import MendStep
 from ros_doctor.pages import FOLDER, page_of
-from ros_doctor.registry import Check, all_checks
+from ros_doctor.registry import DoctorCheck, all_checks
 
 WORDS_OF_A_STEP = ("do", "say")
 DEEPEST = 3
@@ -49,12 +49,12 @@ class DoctorChecks(MarkdownDirective):
         return "\n\n".join(_theme(theme, list(checks)) for theme, checks in themes)
 
 
-def _theme(theme: str, checks: list[Check]) -> str:
+def _theme(theme: str, checks: list[DoctorCheck]) -> str:
     title = (FOLDER / f"{theme}.md").read_text("utf-8").splitlines()[0]
     return "\n\n".join([f"#{title}", *map(_section, checks)])
 
 
-def _section(check: Check) -> str:
+def _section(check: DoctorCheck) -> str:
     steps = dict.fromkeys(_said_better(step) for step in steps_of(check.examine))
     mend = "\n".join(_item(step) for step in steps) or "1. Follow what the doctor says there."
     return (
@@ -66,14 +66,14 @@ def _section(check: Check) -> str:
     )
 
 
-def _said_better(step: Step) -> Step:
+def _said_better(step: MendStep) -> MendStep:
     text, command = step.text, step.command
     for ours, readers in SAID_BETTER.items():
         text, command = text.replace(ours, readers), command.replace(ours, readers)
-    return Step(text, command)
+    return MendStep(text, command)
 
 
-def _item(step: Step) -> str:
+def _item(step: MendStep) -> str:
     text = _plain(step.text) or "Type:"
     if not step.command:
         return f"1. {text}\n"
@@ -91,7 +91,7 @@ def _plain(text: str) -> str:
 # --- reading the steps -------------------------------------------------------------------------
 
 
-def steps_of(function: Callable[..., Any], depth: int = DEEPEST) -> Iterator[Step]:
+def steps_of(function: Callable[..., Any], depth: int = DEEPEST) -> Iterator[MendStep]:
     """The steps that a function of the doctor may give, in the order of its code."""
     module = sys.modules[function.__module__]
     for call in _calls(ast.parse(textwrap.dedent(inspect.getsource(function)))):
@@ -102,10 +102,10 @@ def steps_of(function: Callable[..., Any], depth: int = DEEPEST) -> Iterator[Ste
     for name in _names(function):
         constant = getattr(module, name, None)
         if isinstance(constant, tuple):
-            yield from (each for each in constant if isinstance(each, Step))
+            yield from (each for each in constant if isinstance(each, MendStep))
 
 
-def _steps_behind(called: Any, depth: int) -> Iterator[Step]:
+def _steps_behind(called: Any, depth: int) -> Iterator[MendStep]:
     ours = inspect.isfunction(called) and called.__module__.startswith("ros_doctor")
     if ours and depth:
         yield from steps_of(called, depth - 1)
@@ -124,14 +124,14 @@ def _names(function: Callable[..., Any]) -> tuple[str, ...]:
     return function.__code__.co_names
 
 
-def _step(call: ast.Call) -> Step:
+def _step(call: ast.Call) -> MendStep:
     texts = [_text(argument) for argument in call.args]
     if call.func.id == "do" and isinstance(call.args[0], ast.Call):  # type: ignore[attr-defined]
         texts[0] = COMPUTED
     named = {each.arg: _text(each.value) for each in call.keywords}
     if call.func.id == "say":  # type: ignore[attr-defined]
-        return Step(text=texts[0])
-    return Step(command=texts[0], text=named.get("text", texts[1] if len(texts) > 1 else ""))
+        return MendStep(text=texts[0])
+    return MendStep(command=texts[0], text=named.get("text", texts[1] if len(texts) > 1 else ""))
 
 
 def _text(node: ast.expr) -> str:

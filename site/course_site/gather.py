@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import ros2_on_pip
+from ros2_on_pip.language import said
 from roslings.course import all_labs
 from roslings_learn.lessons import Day, read_lessons
 
@@ -109,7 +110,7 @@ def _with_tree(lesson: Path, quiz: Path) -> str:
     """The lesson, with the other pages of its day below it in the side bar."""
     folder = lesson.parent
     pages = sorted(str(p.relative_to(folder).with_suffix("")) for p in folder.rglob("*.md"))
-    pages += [f"Quiz <{quiz.stem}>"] if quiz.is_file() else []
+    pages += [f"{said('site.quiz', 'Quiz')} <{quiz.stem}>"] if quiz.is_file() else []
     notebook = json.loads(_linked(lesson))
     for cell in notebook["cells"]:
         if cell.get("id") == IMPORTS:  # becomes a class of the cell on the page
@@ -122,14 +123,16 @@ def _with_tree(lesson: Path, quiz: Path) -> str:
 
 
 def _quiz_page(day: Day) -> str:
-    return f"# Quiz of day {day.number}: {day.title}\n\n```{{quiz}} {day.id}\n```\n"
+    title = "Quiz of day {day}: {title}"
+    head = said("site.quiz.title", title, day=day.number, title=day.title)
+    return f"# {head}\n\n```{{quiz}} {day.id}\n```\n"
 
 
 def _answers_page(day: Day) -> str:
     front = "---\norphan: true\nnosearch: true\n---\n"
-    return (
-        f"{front}# Answers of day {day.number}: {day.title}\n\n```{{quiz-answers}} {day.id}\n```\n"
-    )
+    title = "Answers of day {day}: {title}"
+    head = said("site.answers.title", title, day=day.number, title=day.title)
+    return f"{front}# {head}\n\n```{{quiz-answers}} {day.id}\n```\n"
 
 
 def _gather_labs(gathered: Gathered, days: dict[str, Day]) -> None:

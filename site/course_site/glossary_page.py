@@ -8,8 +8,12 @@ from html import escape
 from docutils import nodes
 from sphinx.application import Sphinx
 
-from course_site.course import MarkdownDirective, html, lessons_of
+from course_site.course import MarkdownDirective, html, lessons_of, name_of, not_in_the_page
+from ros2_on_pip.language import said, template
 from roslings_learn.lessons import Category, Glossary, Term
+from roslings_learn.lessons.translated import A_SENTENCE
+
+FILTER = "Filter the words"
 
 
 class AllWords(MarkdownDirective):
@@ -20,6 +24,8 @@ class AllWords(MarkdownDirective):
         glossary = lessons_of(self.config).glossary
         terms = sorted(glossary.by_id.values(), key=lambda term: (term.name.lower(), term.sense))
         entries = [self._entry(term, glossary.category_of(term)) for term in terms]
+        for entry in entries:
+            not_in_the_page(entry)
         return [html(_filters(glossary, terms)), *entries]
 
     def _entry(self, term: Term, category: Category) -> nodes.section:
@@ -54,24 +60,26 @@ class AllWords(MarkdownDirective):
             return []
         known = lessons_of(self.config).glossary.by_id
         links = ", ".join(f"[{known[each].title}](#word-{each})" for each in term.see)
-        paragraph = self.parsed(f"See also: {links}.")
+        paragraph = self.parsed(said("site.words.see", "See also: {links}.", links=links))
         paragraph[0]["classes"].append("see")
         return paragraph
 
 
 def _example(example: str) -> nodes.Element:
     """Code is shown as code, a sentence as a sentence."""
-    if re.fullmatch(r"[A-Z0-9][^=_{}()/]*\.", example):
-        return nodes.paragraph("", f"Example: {example}", classes=["example"])
-    paragraph = nodes.paragraph("", "", nodes.Text("Example: "), classes=["example"])
+    label = said("site.words.example", "Example: ")
+    if A_SENTENCE.fullmatch(example):
+        return nodes.paragraph("", f"{label}{example}", classes=["example"])
+    paragraph = nodes.paragraph("", "", nodes.Text(label), classes=["example"])
     paragraph += nodes.literal(example, example)
     return paragraph
 
 
 def _footnote(term: Term, category: Category, directive: AllWords) -> nodes.Element:
     lessons = lessons_of(directive.config)
-    where = lessons.day(term.day).name if term.day else "Beyond the days of this course"
-    parts = [where, category.category, *([f"ROS 1: {term.ros1}"] if term.ros1 else [])]
+    beyond = said("site.words.beyond", "Beyond the days of this course")
+    where = name_of(lessons.day(term.day)) if term.day else beyond
+    parts = [where, _named(category), *([f"ROS 1: {term.ros1}"] if term.ros1 else [])]
     return nodes.paragraph("", " · ".join(parts), classes=["where", "unlinked"])
 
 
@@ -80,17 +88,27 @@ def slug(category: Category) -> str:
     return re.sub(r"[^a-z]+", "-", category.category.lower())
 
 
+def _named(category: Category) -> str:
+    return template(category_id(category), category.category)
+
+
+def category_id(category: Category) -> str:
+    """The id of its name."""
+    return f"glossary.categories.{slug(category)}"
+
+
 def _filters(glossary: Glossary, terms: list[Term]) -> str:
     letters = dict.fromkeys(term.letter for term in sorted(terms, key=lambda term: term.letter))
     by_letter = "".join(_option("letter", each.lower(), each) for each in letters)
     by_category = "".join(
-        _option("category", slug(each), each.category) for each in glossary.categories
+        _option("category", slug(each), _named(each)) for each in glossary.categories
     )
     return (
-        '<form class="word-filter" hidden aria-label="Filter the words">'
-        f"<fieldset><legend>Letter</legend>{_option('letter', '', 'All', True)}{by_letter}"
-        "</fieldset><fieldset><legend>Category</legend>"
-        f"{_option('category', '', 'All', True)}{by_category}"
+        f'<form class="word-filter" hidden aria-label="{said("site.words.filter", FILTER)}">'
+        f"<fieldset><legend>{said('site.words.letter', 'Letter')}</legend>"
+        f"{_option('letter', '', said('site.words.all', 'All'), True)}{by_letter}"
+        f"</fieldset><fieldset><legend>{said('site.words.category', 'Category')}</legend>"
+        f"{_option('category', '', said('site.words.all', 'All'), True)}{by_category}"
         '</fieldset><p role="status" class="word-count"></p></form>'
     )
 
@@ -105,6 +123,8 @@ def _option(name: str, value: str, text: str, checked: bool = False) -> str:
 class Ros1Words(MarkdownDirective):
     """`{ros1-words}`: the table from ROS 1 to ROS 2, drawn from the glossary."""
 
+    by_id = True
+
     def markdown(self) -> str:
         """A table, sorted by the ROS 1 name."""
         terms = [term for term in lessons_of(self.config).glossary.by_id.values() if term.ros1]
@@ -112,7 +132,8 @@ class Ros1Words(MarkdownDirective):
             f"| {term.ros1} | [{term.title}](#word-{term.id}) | {term.definition} |"
             for term in sorted(terms, key=lambda term: term.ros1.lower())
         ]
-        return "\n".join(["| ROS 1 | ROS 2 | what it is |", "| --- | --- | --- |", *rows])
+        what = said("site.words.what", "what it is")
+        return "\n".join([f"| ROS 1 | ROS 2 | {what} |", "| --- | --- | --- |", *rows])
 
 
 def setup(app: Sphinx) -> None:

@@ -13,12 +13,12 @@ from docutils import nodes
 from sphinx.application import Sphinx
 
 from course_site.course import html
+from ros2_on_pip.language import said
 
 PAGE = re.compile(r"labs/(?!index$)[^/]+")
 CARD, STEPS, POINTS = "the-card", "the-steps", "the-points"
 WHERE = (
-    '<p class="note-box">Each name and number that counts stands in'
-    f' <a href="#{CARD}">the card</a>, below the steps.</p>'
+    'Each name and number that counts stands in <a href="#the-card">the card</a>, below the steps.'
 )
 
 
@@ -31,7 +31,7 @@ def shape(app: Sphinx, document: nodes.document) -> None:
         return
     parent = card.parent
     parent.remove(card)
-    steps.insert(1, html(WHERE))
+    steps.insert(1, html(f'<p class="note-box">{said("site.lab.where", WHERE)}</p>'))
     place = parent.index(points) if points is not None else len(parent)
     parent.insert(place, card)
     for table in list(card.findall(nodes.table)):
@@ -50,7 +50,7 @@ def _fold(table: nodes.table) -> None:
         return
     rows = sum(1 for body in table.findall(nodes.tbody) for _ in body.findall(nodes.row))
     place = table.parent.index(table)
-    summary = escape(f"{heads[0]}: {rows} lines")
+    summary = escape(said("site.lab.lines", "{title}: {count} lines", title=heads[0], count=rows))
     table.parent.insert(place + 1, html("</details>"))
     opening = f'<details class="folded of-card"><summary>{summary}</summary>'
     table.parent.insert(place, html(opening))

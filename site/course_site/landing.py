@@ -12,6 +12,8 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from course_site.course import html, lessons_of
+from ros2_on_pip.language import said
+from roslings.report.check_lines import WORDS
 from roslings.report.json_file import read_json
 from roslings.report.terminal import print_verdict
 
@@ -20,10 +22,15 @@ FAILED = "✗"
 COLUMNS = 46
 """So wide that it stands beside the rover, and can be read on a telephone."""
 FIRST_PAGES = ("days/01-install/first-15-minutes", "days/01-install/index", "reference/installing")
+WINDOW_TITLE = "A day in one window"
 WINDOW_PAGE, WINDOW = "reference/installing", "the-day-in-one-window"
 """What the second button leads to: the page, and the place on it."""
 SAID = "One letter is missing in a program. The course ran it, and says this."
 ROVER = "A small robot drives round a room, along a dotted line, past a red ball."
+LEAD = (
+    "{days} days, from the first two programs that talk to a robot that sees. You build each part"
+    " yourself. The course runs what you built, and says what to do next."
+)
 
 
 class Hero(SphinxDirective):
@@ -36,17 +43,18 @@ class Hero(SphinxDirective):
         days = len(lessons_of(self.config).days)
         return [
             html(
-                f'<div class="hero"><div class="hero-words"><p class="lead">{days} days, from the'
-                " first two programs that talk to a robot that sees. You build each part yourself."
-                " The course runs what you built, and says what to do next.</p>"
-                f'<p class="actions"><a class="button" href="{first}.html">Drive a robot in 15'
-                f" minutes</a>{self._second_button()}</p></div>"
+                '<div class="hero"><div class="hero-words"><p class="lead">'
+                f"{said('site.home.lead', LEAD, days=days)}</p>"
+                f'<p class="actions"><a class="button" href="{first}.html">'
+                f"{said('site.home.begin', 'Drive a robot in 15 minutes')}</a>"
+                f"{self._second_button()}</p></div>"
                 '<div class="hero-room">'
-                f'<img src="_static/rover.svg" width="304" height="400" alt="{ROVER}"></div>'
+                '<img src="_static/rover.svg" width="304" height="400"'
+                f' alt="{said("site.home.rover", ROVER)}"></div>'
                 f'<figure class="hero-verdict"><pre class="verdict">{marked()}</pre>'
-                f"<figcaption>{SAID}</figcaption></figure></div>"
+                f"<figcaption>{said('site.home.verdict', SAID)}</figcaption></figure></div>"
                 '<p class="note-box review-due" hidden><span></span> '
-                '<a href="review.html">Review them</a></p>'
+                f'<a href="review.html">{said("site.home.review", "Review them")}</a></p>'
             )
         ]
 
@@ -55,12 +63,13 @@ class Hero(SphinxDirective):
         if WINDOW_PAGE not in self.env.found_docs:
             return ""
         address = f"{WINDOW_PAGE}.html#{WINDOW}"
-        return f' <a class="button plain" href="{address}">A day in one window</a>'
+        title = said("site.home.window", WINDOW_TITLE)
+        return f' <a class="button plain" href="{address}">{title}</a>'
 
 
 def marked() -> str:
     """The same as HTML, its first words in the colour of what failed."""
-    failed = f"{FAILED} fail"
+    failed = f"{FAILED} {WORDS['fail']}"
     return escape(printed()).replace(failed, f'<b class="failed">{failed}</b>', 1)
 
 

@@ -8,29 +8,32 @@ folded where the reader guesses first.
 
 from __future__ import annotations
 
+from typing import Any
+
 from docutils import nodes
 from sphinx.application import Sphinx
+from sphinx.transforms import SphinxTransform
 from sphinx.util import logging
 
-from course_site.course import html
+from course_site.course import BEFORE_TRANSLATION, html
 from course_site.run_box import day_of
+from ros2_on_pip.language import language, said
 
 log = logging.getLogger(__name__)
 
 GUESS = "Before you run"
-YOUR_TURN = '<div class="your-turn"><p class="your-turn-title">Your turn</p>'
+YOUR_TURN = '<div class="your-turn"><p class="your-turn-title">{title}</p>'
 END = "</div>"
 
 
 def shape(app: Sphinx, document: nodes.document) -> None:
     """Give a lesson its form; other pages stay as they are."""
-    day = day_of(app, app.env.docname)
+    day = day_of(app.config, app.env.docname)
     if day is None:
         return
     card = _card(document)
     if card is not None and day.picture:
         _show_first(document, day.picture, card)
-    _mark_guesses(document)
     for cell in list(document.findall(nodes.container)):
         _mark_cell(cell)
 
@@ -54,14 +57,20 @@ def _label(block: nodes.Node) -> str:
 
 def _show_first(document: nodes.document, name: str, card: nodes.Element) -> None:
     """Put the drawing below the card. It stands there once, wherever the lesson has it."""
-    pictures = document.findall(nodes.image)
-    found = [image for image in pictures if image["uri"].endswith(f"/{name}")]
+    names = (f"/{name}", f"/{in_language(name)}")
+    found = [image for image in document.findall(nodes.image) if image["uri"].endswith(names)]
     if not found:
         log.warning("The lesson has no picture '%s'. Mend: path.yaml.", name, location=document)
         return
     holder = found[0].parent
     holder.parent.remove(holder)
     card.parent.insert(_place_below(card), holder)
+
+
+def in_language(name: str) -> str:
+    """What Sphinx takes for a drawing where it is there: `rover.de.svg` for `rover.svg`."""
+    stem, _, ending = name.rpartition(".")
+    return f"{stem}.{language()}.{ending}"
 
 
 def _place_below(card: nodes.Element) -> int:
@@ -73,22 +82,34 @@ def _place_below(card: nodes.Element) -> int:
     return place
 
 
-def _mark_guesses(document: nodes.document) -> None:
-    for paragraph in document.findall(nodes.paragraph):
-        if _label(paragraph).startswith(GUESS):
-            paragraph["classes"].append("guess")
+class Guesses(SphinxTransform):
+    """Marks what the reader guesses: by its English, before it is translated."""
+
+    default_priority = BEFORE_TRANSLATION
+
+    def apply(self, **_: Any) -> None:
+        """Each paragraph of a lesson that begins so."""
+        if day_of(self.config, self.env.docname) is None:
+            return
+        for paragraph in self.document.findall(nodes.paragraph):
+            if _label(paragraph).startswith(GUESS):
+                paragraph["classes"].append("guess")
 
 
 def _mark_cell(cell: nodes.container) -> None:
     """By the tags that the notebook gives it."""
     tags = cell.get("classes", ())
     if "tag_imports" in tags:
-        _between(cell, _folded("The imports of this page"), "</details>")
+        _between(
+            cell, _folded(said("site.lesson.imports", "The imports of this page")), "</details>"
+        )
     elif "tag_change" in tags:
-        _between(cell, YOUR_TURN, END)
-        _fold_outputs(cell, "What it says before you change it")
+        title = said("site.lesson.your_turn", "Your turn")
+        _between(cell, YOUR_TURN.format(title=title), END)
+        before = said("site.lesson.before", "What it says before you change it")
+        _fold_outputs(cell, before)
     elif _follows_a_guess(cell):
-        _fold_outputs(cell, "What it prints: guess first")
+        _fold_outputs(cell, said("site.lesson.guess", "What it prints: guess first"))
 
 
 def _follows_a_guess(cell: nodes.container) -> bool:
@@ -115,4 +136,5 @@ def _between(node: nodes.Node, before: str, after: str) -> None:
 
 def setup(app: Sphinx) -> None:
     """Called by Sphinx."""
+    app.add_transform(Guesses)
     app.connect("doctree-read", shape, priority=600)  # after the pictures got their paths

@@ -16,9 +16,22 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from course_site.course import html, inline_html, lessons_of
-from roslings_learn.lessons import Lessons, One, Order, Prints, Question, Quiz, Several
+from ros2_on_pip.language import Text, counted, said
+from roslings_learn.lessons import Lessons, One, OrderQuestion, Prints, Question, Quiz, Several
 
 Values = dict[str, Any]
+INTRO = (
+    "{number}. Choose, then press <b>Check</b>. A wrong answer is no harm: it comes back on the"
+    ' <a href="../../review.html">review page</a>.'
+)
+NO_SCRIPT = (
+    "Your browser runs no JavaScript here. Answer on paper, then read the"
+    ' <a href="{answers}">answers with explanations</a>.'
+)
+IT_PRINTS = Text("site.quiz.prints", "It prints:")
+SEVERAL = Text("site.quiz.several", "One or more are right.")
+RIGHT = Text("site.quiz.right", "Right:")
+NOT_RIGHT = Text("site.quiz.not_right", "Not right:")
 
 
 class QuizDirective(SphinxDirective):
@@ -30,10 +43,9 @@ class QuizDirective(SphinxDirective):
         """One form a question."""
         quiz = lessons_of(self.config).quiz(self.arguments[0])
         assert quiz is not None, self.arguments[0]  # the page is made from the quiz
-        highlight = self.env.app.builder.highlighter.highlight_block  # type: ignore[attr-defined]
+        highlight = _highlighter(self.env.app)
         forms = [_form(each, index, highlight) for index, each in enumerate(quiz.questions, 1)]
-        count = f"{len(forms)} question{'' if len(forms) == 1 else 's'}"
-        return [html(_no_script("answers.html")), html(_intro(count)), *map(html, forms)]
+        return [html(_no_script("answers.html")), html(_intro(len(forms))), *map(html, forms)]
 
 
 class ReviewDirective(SphinxDirective):
@@ -41,7 +53,7 @@ class ReviewDirective(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """One form a question, each once."""
-        highlight = self.env.app.builder.highlighter.highlight_block  # type: ignore[attr-defined]
+        highlight = _highlighter(self.env.app)
         questions = all_questions(lessons_of(self.config))
         forms = [_form(each, index, highlight) for index, each in enumerate(questions, 1)]
         return [html(f'<div class="review-questions">{"".join(forms)}</div>')]
@@ -59,23 +71,30 @@ class AnswersDirective(SphinxDirective):
         return [html("".join(_answer(each, n) for n, each in enumerate(quiz.questions, 1)))]
 
 
+def _highlighter(app: Sphinx) -> Any:
+    """Gives code its colours: a page has them, and what only takes texts out of pages has none."""
+    if app.builder.format == "html":
+        return app.builder.highlighter.highlight_block  # type: ignore[attr-defined]
+    return lambda code, language: escape(code)
+
+
 def all_questions(lessons: Lessons) -> list[Question]:
     """Every question once, in the order of the days."""
     return list({each.id: each for quiz in lessons.quizzes for each in quiz.questions}.values())
 
 
-def _intro(count: str) -> str:
-    return (
-        f'<p class="quiz-intro">{count}. Choose, then press <b>Check</b>. A wrong answer is no'
-        ' harm: it comes back on the <a href="../../review.html">review page</a>.</p>'
-    )
+def _intro(count: int) -> str:
+    number = counted("site.quiz.count", count, one="{count} question", other="{count} questions")
+    return f'<p class="quiz-intro">{said("site.quiz.intro", INTRO, number=number)}</p>'
 
 
 def _no_script(answers: str) -> str:
-    return (
-        '<noscript><p class="note-box">Your browser runs no JavaScript here. Answer on paper, then'
-        f' read the <a href="{answers}">answers with explanations</a>.</p></noscript>'
-    )
+    words = said("site.quiz.no_script", NO_SCRIPT, answers=answers)
+    return f'<noscript><p class="note-box">{words}</p></noscript>'
+
+
+def _numbered(number: int) -> str:
+    return said("site.quiz.question", "Question {number}", number=number)
 
 
 # --- one question ------------------------------------------------------------------------------
@@ -86,24 +105,25 @@ def _form(question: Question, number: int, highlight: Any) -> str:
     return (
         f'<form class="question" id="q-{question.id}" data-question="{question.id}"'
         f' data-kind="{question.kind}" novalidate>'
-        f'<fieldset><legend><span class="question-number">Question {number}</span> '
+        f'<fieldset><legend><span class="question-number">{_numbered(number)}</span> '
         f"{inline_html(question.ask)}</legend>{code}{_answers_to(question)}</fieldset>"
-        '<p class="question-buttons"><button type="submit" class="button">Check</button></p>'
+        '<p class="question-buttons"><button type="submit" class="button">'
+        f"{said('site.quiz.check', 'Check')}</button></p>"
         '<div class="outcome" role="status"></div></form>'
     )
 
 
 def _answers_to(question: Question) -> str:
-    if isinstance(question, Order):
+    if isinstance(question, OrderQuestion):
         return _steps(question)
     if isinstance(question, Prints):
         return (
-            f'<p class="typed"><label for="a-{question.id}">It prints:</label> <input type="text"'
+            f'<p class="typed"><label for="a-{question.id}">{IT_PRINTS}</label> <input type="text"'
             f' id="a-{question.id}" name="answer" autocomplete="off" autocapitalize="off"'
             ' spellcheck="false"></p><p class="why" hidden></p>'
         )
     several = isinstance(question, Several)
-    note = '<p class="several">One or more are right.</p>' if several else ""
+    note = f'<p class="several">{SEVERAL}</p>' if several else ""
     items = "".join(
         f'<li><label><input type="{"checkbox" if several else "radio"}" name="answer"'
         f' value="{index}"><span>{inline_html(choice.text)}</span></label>'
@@ -113,32 +133,31 @@ def _answers_to(question: Question) -> str:
     return f'{note}<ul class="choices">{items}</ul>'
 
 
-def _steps(question: Order) -> str:
+def _steps(question: OrderQuestion) -> str:
     items = "".join(
         f'<li data-step="{shown}"><span>{inline_html(question.steps[place].text)}</span>'
         '<p class="why" hidden></p></li>'
         for shown, place in enumerate(question.shown)
     )
-    return (
-        f'<p class="several">Move the steps into the right order.</p><ol class="steps">{items}</ol>'
-    )
+    move = said("site.quiz.move", "Move the steps into the right order.")
+    return f'<p class="several">{move}</p><ol class="steps">{items}</ol>'
 
 
 def _answer(question: Question, number: int) -> str:
-    head = f"<h2>Question {number}</h2><p>{inline_html(question.ask)}</p>"
+    head = f"<h2>{_numbered(number)}</h2><p>{inline_html(question.ask)}</p>"
     code = f"<pre>{escape(question.code)}</pre>" if question.code else ""
     return f"<section>{head}{code}{_explained(question)}</section>"
 
 
 def _explained(question: Question) -> str:
-    if isinstance(question, Order):
+    if isinstance(question, OrderQuestion):
         lines = [f"{inline_html(s.text)} <em>{inline_html(s.why)}</em>" for s in question.steps]
         return f"<ol>{''.join(f'<li>{line}</li>' for line in lines)}</ol>"
     if isinstance(question, Prints):
         printed = f"<pre>{escape(question.prints)}</pre>"
-        return f"<p>It prints:</p>{printed}<p><em>{inline_html(question.why)}</em></p>"
+        return f"<p>{IT_PRINTS}</p>{printed}<p><em>{inline_html(question.why)}</em></p>"
     lines = [
-        f"<strong>{'Right' if each.right else 'Not right'}:</strong> {inline_html(each.text)}"
+        f"<strong>{RIGHT if each.right else NOT_RIGHT}</strong> {inline_html(each.text)}"
         f" <em>{inline_html(each.why)}</em>"
         for each in question.choices
     ]
@@ -150,7 +169,7 @@ def _explained(question: Question) -> str:
 
 def _key(question: Question) -> Values:
     shared: Values = {"kind": question.kind, "day": question.day}
-    if isinstance(question, Order):
+    if isinstance(question, OrderQuestion):
         places = question.shown
         order = [places.index(place) for place in range(len(places))]
         whys = [inline_html(question.steps[place].why) for place in places]

@@ -27,6 +27,7 @@ from sphinx.util import logging
 from sphinx.util.docutils import SphinxRole
 
 from course_site.course import html, inline_html, lessons_of
+from ros2_on_pip.language import said
 from roslings_learn.lessons import Glossary, Term
 
 log = logging.getLogger(__name__)
@@ -190,9 +191,13 @@ def add_definitions(app: Sphinx, document: nodes.document, page: str) -> None:
     entries = "".join(_definition(glossary.by_id[each], to) for each in used)
     document += html(
         '<section class="page-words" aria-labelledby="page-words"><details>'
-        f'<summary><h2 id="page-words">Words on this page ({len(used)})</h2></summary>'
+        f'<summary><h2 id="page-words">{_title(len(used))}</h2></summary>'
         f"<dl>{entries}</dl></details></section>"
     )
+
+
+def _title(count: int) -> str:
+    return said("site.words.on_page", "Words on this page ({count})", count=count)
 
 
 def _definition(term: Term, to: str) -> str:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from roslings_rover.models.differential_drive import Motion
 from roslings_rover.rover.moving_map import moving_map
-from roslings_rover.rover.rover import Moment, Rover
+from roslings_rover.rover.rover import Rover, RoverMoment
 
 DRIVE = ((Motion(0.5, 0.0), 2.0), (Motion(0.4, 0.6), 1.8), (Motion(0.5, 0.0), 1.2))
 """Each motion, and for how many seconds."""
@@ -24,7 +24,7 @@ def main(picture: Path) -> None:
         rover.drive(motion)
         for _ in range(round(for_s / STEP_S)):
             rover.step(STEP_S)
-    trail = [*rover.trail, Moment(rover.time_s, rover.pose)]
+    trail = [*rover.trail, RoverMoment(rover.time_s, rover.pose)]
     drawn = moving_map(rover.world, trail, rover.body.radius_m, moves=False)
     picture.write_text(drawn + "\n", "utf-8")
 

@@ -14,18 +14,22 @@
     const quiz = box.querySelector('[data-need="quiz"]');
     if (quiz) {
       const left = missing.questions.length;
-      tick(quiz, left === 0, left === 1 ? "one question to answer" : `${left} questions to answer`);
+      const open = roslings.counted("script.day.left", left, "one question to answer", "{count} questions to answer");
+      tick(quiz, left === 0, open);
     }
     for (const lab of box.querySelectorAll('[data-need="lab"]')) {
-      tick(lab, !missing.labs.includes(lab.dataset.lab), "load its verdict below");
+      const open = roslings.text("script.day.load", "load its verdict below");
+      tick(lab, !missing.labs.includes(lab.dataset.lab), open);
     }
     button.disabled = missing.done || missing.questions.length > 0 || missing.labs.length > 0;
-    if (missing.done) state.textContent = "✓ This day is done. Home shows the next one.";
+    if (missing.done) {
+      state.textContent = roslings.text("script.day.done", "✓ This day is done. Home shows the next one.");
+    }
   }
 
   function tick(item, done, open) {
     item.classList.toggle("done", done);
-    item.querySelector("span").textContent = done ? "✓ done" : open;
+    item.querySelector("span").textContent = done ? roslings.text("script.done", "✓ done") : open;
   }
 
   button.addEventListener("click", () => roslings.finishDay(day.id));
@@ -44,15 +48,19 @@
   function answerTo(verdict) {
     if (verdict.problem) return verdict.problem;
     if (verdict.outcome === "inconclusive") {
-      return "This verdict says that not everything could be told. Run ./roslings doctor, then check again.";
+      const english = "This verdict says that not everything could be told. Run ./roslings doctor, then check again.";
+      return roslings.text("script.verdict.open", english);
     }
     if (verdict.outcome === "fail") {
-      return `This verdict has ${verdict.score} of 100 points. Mend what it names, check again, load it again.`;
+      const english = "This verdict has {score} of 100 points. Mend what it names, check again, load it again.";
+      return roslings.text("script.verdict.fail", english, { score: verdict.score });
     }
     if (!day.labs.includes(verdict.lab)) {
-      return `This is the verdict on the lab "${verdict.lab}". It is kept for the day of that lab.`;
+      const english = 'This is the verdict on the lab "{lab}". It is kept for the day of that lab.';
+      return roslings.text("script.verdict.other", english, { lab: verdict.lab });
     }
-    return `The verdict on "${verdict.lab}" is loaded: ${verdict.score} of 100 points.`;
+    const english = 'The verdict on "{lab}" is loaded: {score} of 100 points.';
+    return roslings.text("script.verdict.loaded", english, { lab: verdict.lab, score: verdict.score });
   }
 
   if (!drop) return;

@@ -63,7 +63,7 @@
       if (isHere) element.setAttribute("aria-current", "step");
       else element.removeAttribute("aria-current");
       element.classList.toggle("done", missing.done);
-      state.textContent = [isHere ? "You are here" : "", ...howFar(day, missing)].filter(Boolean).join(" · ");
+      state.textContent = [isHere ? roslings.text("script.path.here", "You are here") : "", ...howFar(day, missing)].filter(Boolean).join(" · ");
     }
     showDueReviews();
   }
@@ -72,11 +72,15 @@
   function howFar(day, missing) {
     const answered = day.questions.length - missing.questions.length;
     const drills = roslings.drillsOf(day);
+    const { text } = roslings;
+    const score = (found) => (found ? text("script.path.lab", "Lab {score} of 100", { score: found.score }) : "");
     return [
-      missing.done ? "✓ Done" : "",
-      drills && drills[0] ? `${drills[0]} of ${drills[1]} drills` : "",
-      ...day.labs.map((lab) => roslings.scoreOf(lab)).map((found) => (found ? `Lab ${found.score} of 100` : "")),
-      answered && !missing.done ? `${answered} of ${day.questions.length} questions answered` : "",
+      missing.done ? text("script.path.done", "✓ Done") : "",
+      drills && drills[0] ? text("script.path.drills", "{done} of {all} drills", { done: drills[0], all: drills[1] }) : "",
+      ...day.labs.map((lab) => score(roslings.scoreOf(lab))),
+      answered && !missing.done
+        ? text("script.path.answered", "{done} of {all} questions answered", { done: answered, all: day.questions.length })
+        : "",
     ];
   }
 
@@ -85,8 +89,8 @@
     if (!place) return;
     const due = roslings.review().due.length;
     place.hidden = due === 0;
-    place.querySelector("span").textContent =
-      due === 1 ? "One missed question is due today." : `${due} missed questions are due today.`;
+    place.querySelector("span").textContent = roslings.counted(
+      "script.missed", due, "One missed question is due today.", "{count} missed questions are due today.");
   }
 
   document.addEventListener("roslings:progress", showPath);
@@ -114,8 +118,9 @@
       entry.hidden = !wanted.every((name) => entry.classList.contains(name));
       shown += entry.hidden ? 0 : 1;
     }
-    filter.querySelector(".word-count").textContent =
-      shown === 1 ? "1 word" : shown ? `${shown} words` : "No word fits both. Choose All in one row.";
+    filter.querySelector(".word-count").textContent = shown
+      ? roslings.counted("script.words", shown, "{count} word", "{count} words")
+      : roslings.text("script.words.none", "No word fits both. Choose All in one row.");
   }
 
   // A link to an entry that the filter hides: show all.
@@ -137,13 +142,13 @@
     const button = document.createElement("button");
     button.type = "button";
     button.className = "copy";
-    button.textContent = "Copy";
+    button.textContent = roslings.text("script.copy", "Copy");
     button.addEventListener("click", async () => {
       try {
         await navigator.clipboard.writeText(pre.textContent.trimEnd());
-        button.textContent = "Copied";
+        button.textContent = roslings.text("script.copied", "Copied");
       } catch {
-        button.textContent = "Not allowed here";
+        button.textContent = roslings.text("script.not_allowed", "Not allowed here");
       }
     });
     const holder = document.createElement("div");

@@ -3,6 +3,22 @@
 (function () {
   "use strict";
 
+  // --- texts: English stands where it is said; a site in another language has the others by id ----
+
+  const TEXTS = {};
+
+  // The text of this id, its {fields} filled in.
+  function text(id, english, fields = {}) {
+    return (TEXTS[id] || english).replace(/\{(\w+)\}/g, (field, name) => (name in fields ? fields[name] : field));
+  }
+
+  // The form of a text that fits a number, which is the field `count` in it.
+  function counted(id, count, one, other, fields = {}) {
+    const form = new Intl.PluralRules(document.documentElement.lang || "en").select(count);
+    const english = count === 1 ? one : other;
+    return text(`${id}.${form}` in TEXTS ? `${id}.${form}` : `${id}.other`, english, { count, ...fields });
+  }
+
   const KEY = "roslings.progress";
   const SCHEMA = 1;
   const LARGEST_FILE_BYTES = 1000000;
@@ -159,17 +175,23 @@
   // Read the text of a progress file. Gives { progress } or { problem }, a sentence for the student.
   function check(text) {
     const value = parsed(text);
-    if (!isRecord(value)) return { problem: "This file is not complete JSON." };
-    if (value.roslings !== "progress") return { problem: "This is not a progress file of roslings." };
+    if (!isRecord(value)) return { problem: text("script.file.not_json", "This file is not complete JSON.") };
+    if (value.roslings !== "progress") {
+      return { problem: text("script.file.other", "This is not a progress file of roslings.") };
+    }
     if (value.schema !== SCHEMA) {
-      return { problem: `This file has the form ${value.schema}. This site reads the form ${SCHEMA}.` };
+      const english = "This file has the form {found}. This site reads the form {ours}.";
+      return { problem: text("script.file.form", english, { found: value.schema, ours: SCHEMA }) };
     }
     const kinds = { questions: isQuestion, days: isDay, labs: isLab };
     const progress = empty();
     for (const [kind, isRight] of Object.entries(kinds)) {
       const entries = Object.entries(isRecord(value[kind]) ? value[kind] : { "?": null });
       const wrong = entries.find(([id, entry]) => !ID.test(id) || !isRight(entry));
-      if (wrong) return { problem: `This file is damaged at ${kind}, "${wrong[0].slice(0, 40)}".` };
+      if (wrong) {
+        const english = 'This file is damaged at {kind}, "{id}".';
+        return { problem: text("script.file.damaged", english, { kind, id: wrong[0].slice(0, 40) }) };
+      }
       progress[kind] = Object.fromEntries(entries);
     }
     return { progress };
@@ -221,7 +243,8 @@
       isRecord(value) && value.schema === 1 && typeof value.lab === "string" && ID.test(value.lab) &&
       ["pass", "fail", "inconclusive"].includes(value.outcome) && Array.isArray(value.checks);
     if (!isVerdict) {
-      return { problem: "This is not a verdict of roslings. Write one with the command above." };
+      const english = "This is not a verdict of roslings. Write one with the command above.";
+      return { problem: text("script.verdict.none", english) };
     }
     return { lab: value.lab, outcome: value.outcome, score: Number(value.score) || 0 };
   }
@@ -239,7 +262,7 @@
   }
 
   window.roslings = {
-    read, answer, review, finishDay, passLab, missing, tell, scoreOf, drillsOf, dayOf, check, join, readVerdict, save, forget,
+    text, counted, read, answer, review, finishDay, passLab, missing, tell, scoreOf, drillsOf, dayOf, check, join, readVerdict, save, forget,
     today, INTERVALS_DAYS,
   };
 })();

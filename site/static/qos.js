@@ -19,11 +19,14 @@
     for (const rule of rules) {
       const wrong = broken.includes(rule);
       rule.classList.toggle("wrong", wrong);
-      rule.querySelector(".qos-mark").textContent = wrong ? "\u2717 too weak" : "\u2713 fits";
+      rule.querySelector(".qos-mark").textContent = wrong
+        ? roslings.text("script.qos.weak", "\u2717 too weak")
+        : roslings.text("script.qos.fits", "\u2713 fits");
     }
+    const why = broken.map((rule) => rule.dataset.broken).join(" ");
     says.textContent = broken.length
-      ? `They do not match: no message comes. ${broken.map((rule) => rule.dataset.broken).join(" ")}`
-      : "They match: messages come.";
+      ? roslings.text("script.qos.no_match", "They do not match: no message comes. {why}", { why })
+      : roslings.text("script.qos.match", "They match: messages come.");
     code.textContent = `offered = ${profile("offered")}\nasked = ${profile("asked")}`;
   }
 

@@ -32,11 +32,12 @@
     const judge = { order: judgeOrder, prints: judgePrint }[form.dataset.kind] || judgeChoices;
     const right = judge(form, keys[form.dataset.question]);
     if (right === null) {
-      say(form, "Answer first, then press Check.");
+      say(form, roslings.text("script.quiz.first", "Answer first, then press Check."));
       return;
     }
     form.classList.add(right ? "right" : "wrong");
-    say(form, right ? "✓ Right." : "✗ Not yet. Read why, and try again.");
+    const notYet = roslings.text("script.quiz.not_yet", "✗ Not yet. Read why, and try again.");
+    say(form, right ? roslings.text("script.quiz.right", "✓ Right.") : notYet);
     form.dispatchEvent(new CustomEvent("roslings:answered", { bubbles: true }));
     roslings.answer(form.dataset.question, right);
   }
@@ -47,7 +48,8 @@
 
   function explain(item, html, right) {
     const why = item.querySelector(".why");
-    why.innerHTML = `<b>${right ? "Right: " : "Not right: "}</b>${html}`;
+    const label = right ? roslings.text("script.quiz.is", "Right: ") : roslings.text("script.quiz.is_not", "Not right: ");
+    why.innerHTML = `<b>${label}</b>${html}`;
     why.hidden = false;
     item.classList.add(right ? "right" : "wrong");
   }
@@ -63,7 +65,8 @@
     });
     const lacks = key.right.some((index) => !chosen[index]);
     const nothingWrong = chosen.every((is, index) => !is || key.right.includes(index));
-    if (!right && lacks && nothingWrong) queueMicrotask(() => say(form, "✗ Not yet. One more is right."));
+    const more = roslings.text("script.quiz.more", "✗ Not yet. One more is right.");
+    if (!right && lacks && nothingWrong) queueMicrotask(() => say(form, more));
     return right;
   }
 
@@ -73,7 +76,8 @@
     if (!given) return null;
     const right = given === plain(key.prints);
     const mistake = key.mistakes.find(([text]) => plain(text) === given);
-    const other = "Go through the code line by line, and write down each value.";
+    const english = "Go through the code line by line, and write down each value.";
+    const other = roslings.text("script.quiz.line_by_line", english);
     explain(form.querySelector("fieldset"), right ? key.why : mistake ? mistake[1] : other, right);
     return right;
   }
@@ -85,8 +89,8 @@
       const name = item.querySelector("span").textContent;
       const buttons = document.createElement("span");
       buttons.className = "movers";
-      buttons.append(mover(form, item, -1, "↑", `Move up: ${name}`));
-      buttons.append(mover(form, item, 1, "↓", `Move down: ${name}`));
+      buttons.append(mover(form, item, -1, "↑", roslings.text("script.quiz.up", "Move up: {step}", { step: name })));
+      buttons.append(mover(form, item, 1, "↓", roslings.text("script.quiz.down", "Move down: {step}", { step: name })));
       item.querySelector("span").after(buttons);
     }
   }
@@ -105,21 +109,24 @@
     const to = items.indexOf(item) + by;
     takeBack(form);
     if (to < 0 || to >= items.length) {
-      say(form, by < 0 ? "It is the first step already." : "It is the last step already.");
+      say(form, by < 0
+        ? roslings.text("script.quiz.is_first", "It is the first step already.")
+        : roslings.text("script.quiz.is_last", "It is the last step already."));
       return;
     }
     if (by < 0) items[to].before(item);
     else items[to].after(item);
     button.focus();
-    say(form, `Now step ${to + 1} of ${items.length}.`);
+    say(form, roslings.text("script.quiz.now", "Now step {step} of {all}.", { step: to + 1, all: items.length }));
   }
 
   function judgeOrder(form, key) {
     const items = [...form.querySelectorAll(".steps > li")];
     const given = items.map((item) => Number(item.dataset.step));
+    const elsewhere = roslings.text("script.quiz.elsewhere", "This step belongs elsewhere.");
     items.forEach((item, index) => {
       const fits = given[index] === key.right[index];
-      explain(item, fits ? key.why[given[index]] : "This step belongs elsewhere.", fits);
+      explain(item, fits ? key.why[given[index]] : elsewhere, fits);
     });
     return given.every((step, index) => step === key.right[index]);
   }

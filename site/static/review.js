@@ -9,6 +9,7 @@
   const status = page.querySelector(".review-status");
   const answer = document.querySelector(".review-answer");
   const keys = roslings.keys || {};
+  const { text } = roslings;
   const answeredHere = new Set(); // they stay, so that the explanation can be read
 
   page.hidden = false;
@@ -25,22 +26,33 @@
     for (const form of forms) {
       const id = form.dataset.question;
       form.hidden = !here.includes(id) && !answeredHere.has(id);
-      if (!form.hidden) form.querySelector(".question-number").textContent = `Question ${++number}`;
+      if (!form.hidden) form.querySelector(".question-number").textContent = numbered(++number);
     }
     status.textContent = sentence(here.length, missed.length, next);
   }
 
+  function numbered(number) {
+    return text("script.review.question", "Question {number}", { number });
+  }
+
   function sentence(due, missed, next) {
-    if (due) return due === 1 ? "One question is due today." : `${due} questions are due today.`;
-    if (next) return `Nothing is due today. The next question comes back on ${next}.`;
-    return missed ? "Nothing is due today." : "No question is missed. Do a quiz, and come back.";
+    if (due) {
+      return roslings.counted("script.review.due", due, "One question is due today.", "{count} questions are due today.");
+    }
+    if (next) {
+      return text("script.review.next", "Nothing is due today. The next question comes back on {date}.", { date: next });
+    }
+    return missed
+      ? text("script.review.nothing", "Nothing is due today.")
+      : text("script.review.none_missed", "No question is missed. Do a quiz, and come back.");
   }
 
   // --- files ------------------------------------------------------------------------------------
 
   on("export", () => {
     roslings.save("roslings-progress.json", JSON.stringify(roslings.read(), null, 2), "application/json");
-    answer.textContent = "Saved as roslings-progress.json. Load it on the other computer.";
+    const english = "Saved as {file}. Load it on the other computer.";
+    answer.textContent = text("script.review.saved", english, { file: "roslings-progress.json" });
   });
 
   document.querySelector('[data-do="import"]').addEventListener("change", async (event) => {
@@ -49,12 +61,13 @@
     if (!file) return;
     const found = roslings.check(await file.text());
     if (found.problem) {
-      answer.textContent = `${found.problem} Your progress is unchanged.`;
+      const english = "{problem} Your progress is unchanged.";
+      answer.textContent = text("script.review.unchanged", english, { problem: found.problem });
       return;
     }
     roslings.join(found.progress);
     const count = Object.keys(found.progress.questions).length;
-    answer.textContent = `Loaded: ${count} questions. Newer answers were kept.`;
+    answer.textContent = text("script.review.loaded", "Loaded: {count} questions. Newer answers were kept.", { count });
   });
 
   on("anki-missed", () => saveCards(roslings.review().missed.filter((id) => keys[id]), "missed"));
@@ -68,13 +81,13 @@
   on("forget-now", () => {
     roslings.forget();
     document.querySelector(".forget-sure").hidden = true;
-    answer.textContent = "All progress in this browser is deleted.";
+    answer.textContent = text("script.review.deleted", "All progress in this browser is deleted.");
   });
 
   // Anki reads a text file: a line a card, and headers that say what the columns are.
   function saveCards(ids, name) {
     if (!ids.length) {
-      answer.textContent = "There is no such question yet. Nothing was saved.";
+      answer.textContent = text("script.review.no_cards", "There is no such question yet. Nothing was saved.");
       return;
     }
     const cell = (html) => `"${html.replace(/"/g, '""').replace(/\n/g, "<br>")}"`;
@@ -83,7 +96,8 @@
       [`roslings-${id}`, cell(keys[id].front), cell(keys[id].back), `roslings ${keys[id].day}`].join("\t"),
     );
     roslings.save(`roslings-${name}.txt`, [...head, ...lines, ""].join("\n"), "text/plain");
-    answer.textContent = `Saved ${ids.length} cards. In Anki, choose File, then Import.`;
+    const english = "Saved {count} cards. In Anki, choose File, then Import.";
+    answer.textContent = text("script.review.cards", english, { count: ids.length });
   }
 
   function on(name, act) {

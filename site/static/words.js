@@ -41,8 +41,9 @@
     text.append(...[...entry.querySelector("dd").childNodes].map((node) => node.cloneNode(true)));
     const more = document.createElement("a");
     more.href = link.href;
-    more.textContent = "More about it";
-    more.setAttribute("aria-label", `More about ${entry.querySelector("dt").textContent}`);
+    more.textContent = roslings.text("script.words.more", "More about it");
+    const word = entry.querySelector("dt").textContent;
+    more.setAttribute("aria-label", roslings.text("script.words.more_about", "More about {word}", { word }));
     popover.append(title, text, more);
     return popover;
   }

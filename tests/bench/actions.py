@@ -16,15 +16,15 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-import roslings.lab_folders  # noqa: F401  # `graders` can be imported from here on
+import roslings.folders.lab_folders  # noqa: F401  # `graders` can be imported from here on
 from graders.actions.record import stopped_after_s
 from ros2_on_pip.rates import measure_rate
 from roslings.capabilities.actions.record import ActionsSeen, cancelled_after_s
 from roslings.capabilities.robot.record import RobotSeen
-from roslings.checking import ready
 from roslings.course import Lab, lab, root
 from roslings.evidence import ExperimentSeen
-from roslings.experiment import Choices, measure
+from roslings.experiment import MeasuringOptions, measure
+from roslings.grading.checking import ready
 from roslings.workspace.inspect import inspect_package
 
 GRADER = Path(__file__).with_name("grade_cancels.py")
@@ -38,7 +38,7 @@ def timed(course: Path, cancels: int) -> ExperimentSeen:
     os.environ |= {"ROSLINGS_COURSE": str(course), "ROSLINGS_BENCH_CANCELS": str(cancels)}
     each = lab("actions")
     files = inspect_package(each.solution, each.card)
-    evidence = measure(each.name, each.solution, files, Choices(seed=1), lambda step: None)
+    evidence = measure(each.name, each.solution, files, MeasuringOptions(seed=1), lambda step: None)
     del os.environ["ROSLINGS_COURSE"]
     return evidence.experiments["timing"]
 
@@ -66,7 +66,7 @@ def show_rates(seen: ExperimentSeen) -> None:
 def show_verdict(each: Lab) -> None:
     """A whole grading."""
     began_ns = time.monotonic_ns()
-    with ready(each, Choices(seed=1)) as begun:
+    with ready(each, MeasuringOptions(seed=1)) as begun:
         verdict = begun.grade(each.solution, began_ns, quiet=True).verdict
     print(f"{'time to verdict':34} {verdict.seconds.total:.1f} s, {verdict.score:g} points")
 

@@ -24,7 +24,7 @@ from rosbags.typesys import Stores, get_typestore
 from ros2_on_pip.domain_lease import leased_domain
 from ros2_on_pip.rosbag2.metadata import Topic
 from ros2_on_pip.rosbag2.reading import opened, read_metadata
-from ros2_on_pip.rosbag2.writing import BagWriter, Compression, Plan
+from ros2_on_pip.rosbag2.writing import BagWriter, BagWriterOptions, Compression
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "packages/ros2-on-pip/tests"))
@@ -76,7 +76,7 @@ def compare(folder: Path, storage: str, compression: Compression, size: int, cou
     """One line for writing, one for reading."""
     raw = bytes(TYPES.serialize_cdr(TYPES.types[STRING]("x" * size), STRING))
     bag = folder / "bag"
-    ours = best(count, bag, lambda: write(bag, Plan(storage, compression), raw, count))
+    ours = best(count, bag, lambda: write(bag, BagWriterOptions(storage, compression), raw, count))
     bare = best(count, bag, lambda: write_bare(bag, storage, compression, raw, count))
     told(f"write {storage} {compression} {size} B", ours, bare)
     ours = best(count, None, lambda: read(bag))
@@ -101,7 +101,7 @@ def best(count: int, fresh: Path | None, work: Callable[[], None]) -> float:
     return count / quickest_s
 
 
-def write(bag: Path, plan: Plan, raw: bytes, count: int) -> None:
+def write(bag: Path, plan: BagWriterOptions, raw: bytes, count: int) -> None:
     """By the writer under `ros2 bag record` and `rosbag2_py`."""
     writer = BagWriter(bag, plan)
     writer.add_topic(Topic("/heard", STRING))

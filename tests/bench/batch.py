@@ -41,8 +41,8 @@ from roslings.workspace.build import colcon
 from roslings_class.capacity import Capacity
 from roslings_class.gradebook import Gradebook, gradebook
 from roslings_class.grading import unpacked
-from roslings_class.result import Result
-from roslings_class.scheduler import GradingRequest, Scheduler, Standing
+from roslings_class.result import GradingResult
+from roslings_class.scheduler import BatchProgress, GradingRequest, Scheduler
 from roslings_class.submissions import find_submissions
 
 LOOK_EVERY_S = 5.0
@@ -76,7 +76,7 @@ class Run:
     """CPU seconds of colcon and the nodes alone, for one submission."""
     idle: float
     """Part of the processors that nobody used, others on this machine included."""
-    results: list[Result]
+    results: list[GradingResult]
     watcher: Watcher
 
 
@@ -91,7 +91,7 @@ class Watcher:
     """Of looking itself, which is no part of grading."""
     _over: threading.Event = field(default_factory=threading.Event)
 
-    def __call__(self, standing: Standing) -> None:
+    def __call__(self, standing: BatchProgress) -> None:
         """What the scheduler tells."""
         self.working = standing.working
         self.most_at_once = max(self.most_at_once, standing.working)
@@ -259,7 +259,7 @@ def start_build(lab: course.Lab, folder: Path) -> subprocess.Popen[bytes]:
     )
 
 
-def nodes_cpu_s(book: Gradebook, results: list[Result]) -> float:
+def nodes_cpu_s(book: Gradebook, results: list[GradingResult]) -> float:
     """CPU of the nodes of one submission, as the kernel counted it."""
     kept = [unpacked(content) for result in results if (content := book.evidence(result))]
     whole = sum(

@@ -22,10 +22,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.arena import base_environment
-from roslings.checking import ready
 from roslings.course import Lab, all_labs, lab, root
 from roslings.evidence import Evidence
-from roslings.experiment import Choices
+from roslings.experiment import MeasuringOptions
+from roslings.grading.checking import ready
 from roslings.verdict import Verdict
 from roslings.workspace.build import colcon
 
@@ -70,7 +70,7 @@ def peak_mb() -> float:
 def grade(each: Lab, package: Path) -> Run:
     """Grade a package once."""
     began_ns, began_cpu_s = time.monotonic_ns(), cpu_s()
-    with ready(each, Choices(seed=1)) as begun:
+    with ready(each, MeasuringOptions(seed=1)) as begun:
         graded = begun.grade(package, began_ns, quiet=True)
     return Run(graded.verdict, graded.evidence, cpu_s() - began_cpu_s)
 

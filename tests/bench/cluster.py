@@ -19,7 +19,7 @@ from batch import hand_in
 from distributed import LocalCluster
 
 from roslings import course
-from roslings_class.command import Choices, grade
+from roslings_class.command import GradeOptions, grade
 
 WORKERS = 2
 
@@ -32,17 +32,17 @@ def main(words: list[str]) -> None:
         place = Path(name)
         handed_in = hand_in(lab, count, place / "in")
         for jobs in (1, WORKERS):
-            choices = Choices(lab.name, handed_in, place / f"jobs-{jobs}", jobs=jobs)
+            choices = GradeOptions(lab.name, handed_in, place / f"jobs-{jobs}", jobs=jobs)
             show(f"--jobs {jobs}", choices, count)
         with LocalCluster(
             n_workers=WORKERS, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
         ) as cluster:
             address = cluster.scheduler_address
-            choices = Choices(lab.name, handed_in, place / "dask", dask=address)
+            choices = GradeOptions(lab.name, handed_in, place / "dask", dask=address)
             show(f"--dask, {WORKERS} workers", choices, count)
 
 
-def show(way: str, choices: Choices, count: int) -> None:
+def show(way: str, choices: GradeOptions, count: int) -> None:
     """Grade, and print how long it took."""
     began_s = time.monotonic()
     with redirect_stdout(StringIO()), redirect_stderr(StringIO()):

@@ -15,7 +15,7 @@ from contextlib import contextmanager
 import serial
 
 from roslings.course import root
-from roslings_rover.board import Board, Chip, Drive, LineReader, Mega, Speeds
+from roslings_rover.board import Board, Chip, DriveCommand, LineReader, Mega, Speeds
 from roslings_rover.camera import SyntheticCamera
 from roslings_rover.emulated import EmulatedMega, built, missing
 from roslings_rover.rover import Rover
@@ -54,7 +54,7 @@ def latencies_ms(host: serial.Serial) -> list[float]:
     reader, found = LineReader(), list[float]()
     for seq in range(COMMANDS):
         began_s = time.perf_counter()
-        host.write(Drive(seq, seq % 256, 0).line())
+        host.write(DriveCommand(seq, seq % 256, 0).line())
         while f"A,{seq}" not in reader.feed(host.read(host.in_waiting or 1)):
             continue
         found.append((time.perf_counter() - began_s) * 1000)

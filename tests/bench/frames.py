@@ -21,7 +21,7 @@ from rclpy.time import Time
 
 from ros2_on_pip.stand_ins._frames.buffer_core import BufferCore, stamped
 from ros2_on_pip.stand_ins._frames.euler import from_euler
-from ros2_on_pip.stand_ins._frames.motion import Motion
+from ros2_on_pip.stand_ins._frames.motion import RigidTransform
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "packages/ros2-on-pip/tests/frames"))
@@ -39,7 +39,7 @@ def filled(depth: int) -> BufferCore:
     buffer = BufferCore()
     for level in range(depth):
         for number in range(HEARD):
-            motion = Motion((1.0, level, number / 50), from_euler((0.1, 0.2, number / 100)))
+            motion = RigidTransform((1.0, level, number / 50), from_euler((0.1, 0.2, number / 100)))
             time_ns = BEGIN_NS + number * PERIOD_NS
             told = stamped(motion, f"f{level}", f"f{level + 1}", time_ns)
             buffer.set_transform(told, "bench")
@@ -69,7 +69,7 @@ def main(rounds: int = ROUNDS, trees: int = TREES) -> None:
             for at in (newest, between)
         ]
         print(f"depth {depth}: {both[0]:,.0f} newest, {both[1]:,.0f} at a time, a CPU s")
-    motion = Motion((1.0, 2.0, 3.0))
+    motion = RigidTransform((1.0, 2.0, 3.0))
     print(f"message: {rate(lambda: stamped(motion, 'a', 'b', BEGIN_NS), rounds):,.0f} a CPU s")
     print(f"largest error over {trees:,} random trees: {worst_error(1, trees):.1e}")
 

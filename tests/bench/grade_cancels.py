@@ -7,12 +7,13 @@ import os
 from graders.actions.act import Director
 from graders.actions.floor import robot_beside, start_near
 from roslings.capabilities.actions.act import timed_feedback
+from roslings.capabilities.actions.contract import ActionWords
 from roslings.course import lab
 from roslings.experiment import Scene, experiment
 
 CARD = lab("actions").card
 SERVER = CARD.node("drive_server")
-DRIVE_TO = SERVER.performs[0]
+DRIVE_TO = SERVER.of(ActionWords).performs[0]
 MIDDLE = {"x": 3.0, "y": 2.5, "tolerance": 0.1}
 
 

@@ -25,7 +25,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "packages/roslings/
 
 from lockstep_drives import CREWS, TIMER, driven
 
-from roslings.lockstep import Drive
+from roslings.lockstep import LockstepDrive
 
 RUNS, ROUNDS, BUSY = 20, 5, 4
 ROOM_S = 60.0
@@ -52,14 +52,14 @@ def print_same(runs: int) -> None:
         print(f"{name:6} {alike(drives)}, {of_ticks(drives)}", flush=True)
 
 
-def alike(drives: Sequence[Drive]) -> str:
+def alike(drives: Sequence[LockstepDrive]) -> str:
     """How many did as most did; and why others ended."""
     most = Counter(drive.commands for drive in drives).most_common(1)[0][1]
     broken = {f"; {drive.end}: {drive.why}" for drive in drives if drive.end != "done"}
     return f"the same in {most} of {len(drives)}{''.join(sorted(broken))}"
 
 
-def of_ticks(drives: Sequence[Drive]) -> str:
+def of_ticks(drives: Sequence[LockstepDrive]) -> str:
     """The middle, the slowest, and how many ticks were late."""
     each_ms = sorted(1e3 * drive.tick_s for drive in drives)
     late = sum(tick.late for drive in drives for tick in drive.ticks)

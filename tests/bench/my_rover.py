@@ -23,14 +23,14 @@ from pathlib import Path
 
 from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import lab
-from roslings_my_rover.parts import PARTS, VOICE, Part
+from roslings_my_rover.parts import PARTS, VOICE, RoverPart
 
 WATCHED_S = 20.0
 READY = "The rover is ready"
 TICKS_A_SECOND = os.sysconf("SC_CLK_TCK")
 
 
-def put(workspace: Path, parts: tuple[Part, ...]) -> None:
+def put(workspace: Path, parts: tuple[RoverPart, ...]) -> None:
     """The solutions of these labs as a student's packages."""
     shutil.rmtree(workspace / "src", ignore_errors=True)
     for part in parts:

@@ -22,12 +22,12 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from ros2_on_pip.rates import measure_rate
-from roslings.arena import Arena, Place, Wall, choose_isolation, opened, ros_environment
+from roslings.arena import Arena, ArenaPlace, Wall, choose_isolation, opened, ros_environment
 from roslings.course import NodeContract
+from roslings.course.grader import Clock
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Scene
 from roslings.experiment.simulated import followed_clock
-from roslings.grader import Clock
 from roslings.probe import Probe
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -193,7 +193,7 @@ def stage(script: Path, folder: str) -> Iterator[tuple[Scene, Probe, Arena]]:
     """A scene in a fresh arena, where the script is the program `talker`."""
     home = Path(folder)
     with (
-        opened(installed(script, home), Place(our_wall(), home, home)) as arena,
+        opened(installed(script, home), ArenaPlace(our_wall(), home, home)) as arena,
         Probe(arena.domain_id, ExperimentSeen(name="bench", clock="wall")) as probe,
     ):
         yield Scene(arena, probe, 1, 2.0), probe, arena

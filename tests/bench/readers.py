@@ -31,12 +31,12 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from hypothesis import HealthCheck, Phase, Verbosity, given, settings, target
 from hypothesis import strategies as st
 
-import roslings.lab_folders  # noqa: F401  # `graders` can be imported from here on
+import roslings.folders.lab_folders  # noqa: F401  # `graders` can be imported from here on
 from graders.black_box import diagnosis
 from ros2_on_pip.errors import RoslingsError
 from roslings.arena.bounds import MB
 from roslings.course import PictureContract, lab
-from roslings.hand_in.errors import Refused
+from roslings.hand_in.errors import HandInRefused
 from roslings.hand_in.unpack import package_in
 from roslings.workspace import bounded, code, documents
 from roslings.workspace.bounded import Bookmark, ReaderEnded, read_in_child
@@ -159,7 +159,7 @@ def unpacked(package: Path) -> object:
     """What was handed in as one file."""
     room = Path(tempfile.mkdtemp(dir=package))
     try:
-        with suppress(Refused):
+        with suppress(HandInRefused):
             return package_in(package / "handed-in", "chatter", room)
         return None
     finally:

@@ -25,7 +25,7 @@ from statistics import median
 
 from roslings import course
 from roslings.arena.kernel import cores
-from roslings_class.classroom import ARCHIVE, LOOPBACK, Offer, commands, made_in, serving
+from roslings_class.classroom import ARCHIVE, LOOPBACK, Handout, commands, made_in, serving
 
 COUNT, AT_ONCE = 30, 2
 GROUPS = ("ros", "colcon", "check")
@@ -97,7 +97,7 @@ def _size_mb(folder: Path) -> float:
     return int(said.stdout.split()[0]) / 1000
 
 
-def _tell(found: Sequence[Ready], offered: Offer, kept_mb: float) -> None:
+def _tell(found: Sequence[Ready], offered: Handout, kept_mb: float) -> None:
     wall_s, cpu_s = (median(getattr(each, name) for each in found) for name in ("wall_s", "cpu_s"))
     longest_s = max(each.wall_s for each in found)
     fetched = [*offered.wheels.values(), offered.files[ARCHIVE]]

@@ -63,7 +63,7 @@ def scans(rounds: int) -> None:
 def pictures(rounds: int) -> None:
     """One picture of each camera."""
     rover = RoomRover(room_of(2))
-    usual, room = SyntheticCamera(rover.eye), RoomCamera(rover.eye)
+    usual, room = SyntheticCamera(rover.camera_model), RoomCamera(rover.camera_model)
     usual_ms, room_ms = in_turns(rounds, lambda: usual.look(rover), lambda: room.look(rover))
     print(f"a picture: one backdrop {usual_ms:.1f} ms, the room {room_ms:.1f} ms")
 

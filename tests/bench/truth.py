@@ -38,14 +38,14 @@ from typing import Literal
 
 from roslings.arena.kernel import cores
 from roslings.course import Lab, all_labs
+from roslings.course.grader import Clock
 from roslings.course.labs import MUTANTS
 from roslings.experiment.run_folder import run_folder
-from roslings.grader import Clock
 from roslings_class.gradebook import FILE, gradebook
-from roslings_class.result import Result
-from roslings_class.scheduler import Standing
+from roslings_class.result import GradingResult
+from roslings_class.scheduler import BatchProgress
 from roslings_class.version import engine_in, version_of
-from roslings_prove.prove import Package, Solution, graded, packages_of, proof_of
+from roslings_prove.prove import ProvenPackage, Solution, graded, packages_of, proof_of
 
 SEED = 19
 CHUNK = 48
@@ -63,7 +63,7 @@ Word = Literal["right", "wrong", "inconclusive"]
 class Again:
     """A package of a lab, for the n-th time."""
 
-    package: Package
+    package: ProvenPackage
     turn: int
 
     @property
@@ -95,7 +95,7 @@ class Again:
         """Where it lies."""
         return self.package.make(folder / str(self.turn))
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """What is wrong with a conclusive result."""
         return self.package.problem(result)
 
@@ -108,7 +108,7 @@ def in_order(labs: Sequence[Lab]) -> Iterator[Again]:
         yield Again(package, turns[package.name])
 
 
-def _packages(labs: Sequence[Lab], dice: random.Random) -> Iterator[Package]:
+def _packages(labs: Sequence[Lab], dice: random.Random) -> Iterator[ProvenPackage]:
     """All wrong ones, shuffled, with the solutions in turn among them; then all anew."""
     everything = [package for lab in labs for package in packages_of(lab)]
     right = [package for package in everything if isinstance(package, Solution)]
@@ -169,7 +169,7 @@ def row_in(line: str) -> Row | None:
         return None
 
 
-def word_of(package: Again, result: Result) -> tuple[Word, str]:
+def word_of(package: Again, result: GradingResult) -> tuple[Word, str]:
     """Right, wrong or inconclusive, and why."""
     proof = proof_of(package, result)
     if proof.holds:
@@ -177,7 +177,7 @@ def word_of(package: Again, result: Result) -> tuple[Word, str]:
     return ("inconclusive" if proof.is_open else "wrong"), proof.problem
 
 
-def row_of(package: Again, tries: Sequence[Result], busy: int, idle: float) -> Row:
+def row_of(package: Again, tries: Sequence[GradingResult], busy: int, idle: float) -> Row:
     """All tries of one grading."""
     said = [word_of(package, each) for each in tries]
     return Row(
@@ -242,12 +242,12 @@ def keep(options: argparse.Namespace, chunk: Iterable[Again], book: Path, idle: 
             print(f"  {row.first}, then {row.last}: {row.name}: {row.why}", flush=True)
 
 
-def tries_in(book: Path) -> dict[str, list[Result]]:
+def tries_in(book: Path) -> dict[str, list[GradingResult]]:
     """Package's name to all that was said of it, one try after the other."""
-    tries: dict[str, list[Result]] = {}
+    tries: dict[str, list[GradingResult]] = {}
     with closing(sqlite3.connect(book / FILE)) as connection:
         for (text,) in connection.execute("SELECT result FROM results ORDER BY id"):
-            result = Result.model_validate_json(text)
+            result = GradingResult.model_validate_json(text)
             tries.setdefault(result.submission, []).append(result)
     return tries
 
@@ -283,7 +283,7 @@ def idle_s() -> float:
     return (int(words[4]) + int(words[5])) / os.sysconf("SC_CLK_TCK")
 
 
-def silent(standing: Standing) -> None:
+def silent(standing: BatchProgress) -> None:
     """A line for each chunk is enough."""
 
 

@@ -18,7 +18,7 @@ from check import cpu_s
 
 from roslings.arena import choose_isolation, isolation_for_strangers
 from roslings.course import lab
-from roslings.experiment import Choices, measure
+from roslings.experiment import MeasuringOptions, measure
 from roslings.judge.loaded import judge_for
 from roslings.workspace.inspect import inspect_package
 
@@ -38,7 +38,7 @@ def seconds(for_others: bool, strangers: bool) -> tuple[float, float, float, flo
     """Wall time, CPU time, time of the build, and the score of the solution."""
     began_s, began_cpu_s = time.monotonic(), cpu_s()
     files = inspect_package(LAB.solution, LAB.card)
-    choices = Choices(seed=1, strangers=strangers, for_others=for_others)
+    choices = MeasuringOptions(seed=1, strangers=strangers, for_others=for_others)
     with judge_for(LAB, strangers) as judge:
         evidence = measure(LAB.name, LAB.solution, files, choices, lambda step: None)
         verdict = judge(evidence, None)

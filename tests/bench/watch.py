@@ -20,7 +20,7 @@ from pathlib import Path
 
 from drills import bare_s, percentile
 from roslings.course import all_labs, root
-from roslings.workspace.progress_file import DrillProgress, LabProgress, Progress, as_json
+from roslings.workspace.progress_file import DrillProgress, LabProgress, StudentProgress, as_json
 from roslings_learn.drills import Drill, all_drills
 
 sys.path.append(str(root() / "tests" / "cli"))
@@ -59,7 +59,7 @@ def _day_s(day: str) -> list[tuple[float, float]]:
 def _write_off_before(day: str, file: Path) -> None:
     now = datetime.now(timezone.utc)
     lab = LabProgress(100.0, 100.0, 1, now, now, now)
-    done = Progress(
+    done = StudentProgress(
         {each.name: lab for each in all_labs() if each.outline.day < day},
         {each.name: DrillProgress(1, now, now) for each in all_drills() if each.day < day},
     )

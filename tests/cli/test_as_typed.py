@@ -15,7 +15,7 @@ import pytest
 
 from ros2_on_pip.domain_lease import leased_domain
 from roslings import course
-from roslings.typed import as_typed, program
+from roslings.commands.invocation import command_line, program
 from roslings.workspace.student import workspace_root
 from roslings_launcher.cli import parser
 from roslings_learn.drills import all_drills
@@ -40,13 +40,15 @@ TALKER = "from ros2_on_pip.demo_nodes_py.talker import main; main()"
 )
 def test_what_decides_what_is_checked_is_repeated(words: list[str], again: str) -> None:
     """Not where the verdict is written to."""
-    typed = as_typed(parser().parse_args(["check", *words]))
+    typed = command_line(parser().parse_args(["check", *words]))
     assert typed.check() == f"{program()} {again}"
 
 
 def test_only_labs_of_the_course_are_handed_in() -> None:
     """The first page checks the example, and throws it away."""
-    asked = {lab: as_typed(parser().parse_args(["check", lab])) for lab in ("topics", "example")}
+    asked = {
+        lab: command_line(parser().parse_args(["check", lab])) for lab in ("topics", "example")
+    }
     assert asked["topics"].handed_in and not asked["example"].handed_in
 
 

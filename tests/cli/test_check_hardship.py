@@ -11,21 +11,24 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from impatient import IMPATIENT
 from ros2_on_pip.errors import INCONCLUSIVE
 from roslings.course import Edit, Lab, Mutant, lab
 from skips import skip_without
-from until_told import Checked, checked, run_until_told, until_told
+from until_told import ROSLINGS, Checked, checked, run_until_told, until_told
 
 TOPICS = lab("topics")
 LONG_S = 120.0
 START = '"""'
 CONSTRUCTOR = "super().__init__("
+SOON = (IMPATIENT, "8")
+"""For a node that never comes up: twenty seconds, three times and more, would show nothing more."""
 
 
 @pytest.fixture
@@ -94,10 +97,12 @@ def run(tmp_path: Path, *words: str | Path, **more: str) -> subprocess.Completed
     return ran
 
 
-def verdict(tmp_path: Path, *words: str | Path, **more: str) -> dict[str, Any]:
+def verdict(
+    tmp_path: Path, *words: str | Path, roslings: Sequence[str | Path] = ROSLINGS, **more: str
+) -> dict[str, Any]:
     """The verdict on a package."""
-    surrounded = surroundings(tmp_path, **more)
-    found: Checked = checked("topics", *words, folder=tmp_path, env=surrounded)
+    env = surroundings(tmp_path, **more)
+    found: Checked = checked("topics", *words, folder=tmp_path, roslings=roslings, env=env)
     assert "Traceback" not in found.ran.stderr, found.ran.stderr
     return found.verdict
 
@@ -217,7 +222,7 @@ def test_a_build_that_fails_shows_why(tmp_path: Path) -> None:
 def test_a_node_that_never_starts_is_given_up(tmp_path: Path) -> None:
     """It hangs before it makes a node."""
     place = injured(tmp_path, at_start("import time\ntime.sleep(10000)"))
-    assert faults(verdict(tmp_path, place)) == {"talker_runs": "DidNotComeUp"}
+    assert faults(verdict(tmp_path, place, roslings=SOON)) == {"talker_runs": "DidNotComeUp"}
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from roslings import course
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
 from roslings.workspace.errors import CannotRead, NoWorkspace
@@ -24,7 +24,7 @@ ENGINE = (
     "roslings.experiment",
     "roslings.judge",
     "roslings.probe",
-    "roslings.saving",
+    "roslings.grading.saving",
     "rclpy",
     "pytest",
     "numpy",
@@ -104,6 +104,13 @@ def test_a_short_command_makes_no_models(words: list[str], workspace: Path) -> N
     assert "roslings.course.outline" in modules
 
 
+@pytest.mark.parametrize("words", [[], ["status"], ["doctor", "--list"]], ids=" ".join)
+def test_english_reads_no_language(words: list[str], workspace: Path) -> None:
+    """It stands in the code: no file is read for it, and nothing that finds or reads files."""
+    modules = imported_by(words, workspace)
+    assert among(modules, ("yaml", "importlib.metadata", "ros2_on_pip.false_language")) == []
+
+
 def test_neither_does_what_cannot_be_done(workspace: Path) -> None:
     """A lab that is begun already, and a name with a mistake in it, are answered as soon."""
     imported_by(["start", "topics"], workspace)
@@ -160,7 +167,7 @@ def test_the_narrower_error_decides() -> None:
     """The disk is the machine's fault, a missing workspace is not; a mistake of ours is neither."""
     assert exit_code_of(CannotRead(Path("x"))) == 3
     assert exit_code_of(NoWorkspace(Path("x"), "topics")) == 2
-    assert exit_code_of(Problem("no middleware")) == 2
+    assert exit_code_of(CommandProblem("no middleware")) == 2
     assert exit_code_of(KeyError("x")) is None
 
 

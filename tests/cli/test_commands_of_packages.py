@@ -8,7 +8,7 @@ from importlib.metadata import entry_points
 import pytest
 
 from roslings_desk.book_names import WINDOWS
-from roslings_launcher.cli.table import GROUP, ORDER, Command, commands
+from roslings_launcher.cli.table import GROUP, ORDER, CommandEntry, commands
 from roslings_launcher.virtual import COMMANDS
 from sources import ROOT
 
@@ -21,7 +21,7 @@ def test_each_listed_command_has_its_place() -> None:
 
 
 @pytest.mark.parametrize("command", commands().values(), ids=lambda each: each.name or "today")
-def test_each_command_is_there(command: Command) -> None:
+def test_each_command_is_there(command: CommandEntry) -> None:
     """Its options and what it runs stand in one file; or it reads its words itself."""
     found = command.load()
     if command.reads_its_words:

@@ -30,10 +30,13 @@ NO_PATHS = {
     "ROSLINGS_BREAK": "whether a terminal has sourced an exercise",
     "ROSLINGS_GRADER": "a repository of an organisation, on GitHub",
     "ROSLINGS_ISOLATION": "the name of a wall",
+    "ROSLINGS_LANGUAGE": "the name of a language",
     "ROSLINGS_MUTANTS_UNTIL": "seconds since 1970",
     "ROSLINGS_OWN_DOMAIN": "the number of a ROS domain",
     "ROSLINGS_READY_S": "seconds",
     "ROSLINGS_RESULTS": "a result itself, for the reporter of GitHub Classroom",
+    "ROSLINGS_ROOMS": "numbers of rooms",
+    "ROSLINGS_ROOM_SECRET": "a text that nobody else has",
     "ROSLINGS_SITE": "whether the site runs the lesson",
     "ROSLINGS_SOAK_S": "seconds",
 }

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from roslings.course import lab
-from roslings.platforms import for_others
-from roslings.shapes import SHAPES
+from roslings.grading.platforms import for_others
+from roslings.grading.shapes import SHAPES
 from roslings_launcher.cli import main, parser
 
 

@@ -13,12 +13,12 @@ import pytest
 
 from roslings import course
 from roslings.workspace.progress import read_progress, record_quiz
-from roslings.workspace.progress_file import Damaged, Progress, as_json, progress_in
+from roslings.workspace.progress_file import DamagedProgress, StudentProgress, as_json, progress_in
 from roslings_launcher.cli import main
-from roslings_learn.commands.quiz import Round, ask_all
+from roslings_learn.commands.quiz import QuizRound, ask_all
 from roslings_learn.jupyter.errors import NoSuchDay
-from roslings_learn.lessons import One, Order, Prints, Question, Quiz, Several, read_lessons
-from roslings_learn.lessons.answering import NoAnswer, how_to_answer, judged, right_answer
+from roslings_learn.lessons import One, OrderQuestion, Prints, Question, Quiz, Several, read_lessons
+from roslings_learn.lessons.answering import NotAnAnswer, how_to_answer, judged, right_answer
 from roslings_learn.lessons.quiz_text import as_text
 
 LESSONS = read_lessons(course.root())
@@ -30,7 +30,7 @@ def letters_of(question: Question) -> str:
     """The right answer, as it is typed."""
     if isinstance(question, Prints):
         return question.prints
-    if isinstance(question, Order):
+    if isinstance(question, OrderQuestion):
         return "".join("abcdefgh"[question.shown.index(n)] for n in range(len(question.steps)))
     return "".join("abcdefgh"[n] for n, choice in enumerate(question.choices) if choice.right)
 
@@ -39,7 +39,7 @@ def wrong_of(question: Question) -> str:
     """A wrong one."""
     if isinstance(question, Prints):
         return question.prints + " no"
-    return letters_of(question)[::-1] if isinstance(question, Order) else _other(question)
+    return letters_of(question)[::-1] if isinstance(question, OrderQuestion) else _other(question)
 
 
 def _other(question: One | Several) -> str:
@@ -74,7 +74,7 @@ def test_the_right_letters_are_right(question: Question) -> None:
 @pytest.mark.parametrize("typed", ["", "  ", "z", "ab", "aa", "1", "nothing"])
 def test_what_is_no_answer_is_told(typed: str) -> None:
     """And does not count as a try."""
-    with pytest.raises(NoAnswer, match="One letter, a to d"):
+    with pytest.raises(NotAnAnswer, match="One letter, a to d"):
         judged(LAMP, typed)
 
 
@@ -86,16 +86,18 @@ def test_letters_are_read_kindly(typed: str) -> None:
 
 def test_an_order_wants_every_letter() -> None:
     """And each once."""
-    question = next(each for each in QUESTIONS.values() if isinstance(each, Order))
+    question = next(each for each in QUESTIONS.values() if isinstance(each, OrderQuestion))
     for typed in ("a", letters_of(question)[:-1], letters_of(question) + "a"):
-        with pytest.raises(NoAnswer):
+        with pytest.raises(NotAnAnswer):
             judged(question, typed)
     first, second, *rest = letters_of(question)
     said = judged(question, "".join([first, *rest, second])).said
-    assert said == ("The first 1 are right.",) or len(rest) == 0
+    assert said == ("The first 1 is right.",) or len(rest) == 0
 
 
-def round_of(quiz: Quiz, wrong_first: int, capsys: pytest.CaptureFixture[str]) -> tuple[Round, str]:
+def round_of(
+    quiz: Quiz, wrong_first: int, capsys: pytest.CaptureFixture[str]
+) -> tuple[QuizRound, str]:
     """Everything answered; the first ones wrong at first."""
     lines = list[str]()
     for number, question in enumerate(quiz.questions):
@@ -109,7 +111,7 @@ def test_only_the_first_try_counts(capsys: pytest.CaptureFixture[str]) -> None:
     """The reason comes after each; the screen is 80 columns wide."""
     quiz = next(quiz for quiz in LESSONS.quizzes if quiz.day == "01-install")
     found, said = round_of(quiz, 2, capsys)
-    assert found == Round(len(quiz.questions), len(quiz.questions) - 2, whole=True)
+    assert found == QuizRound(len(quiz.questions), len(quiz.questions) - 2, whole=True)
     assert said.count("Not yet.") == 2 and said.count("Right.") == len(quiz.questions)
     assert max(map(len, said.splitlines())) <= 80
 
@@ -117,14 +119,14 @@ def test_only_the_first_try_counts(capsys: pytest.CaptureFixture[str]) -> None:
 def test_after_two_tries_the_answer_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     """With its reason; then it goes on."""
     quiz = Quiz("01-install", (LAMP,))
-    assert ask_all(quiz, typing([wrong_of(LAMP), wrong_of(LAMP)])) == Round(1, 0, whole=True)
+    assert ask_all(quiz, typing([wrong_of(LAMP), wrong_of(LAMP)])) == QuizRound(1, 0, whole=True)
     assert "This is right:" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("typed", [["q"], [], ["?", "q"]])
 def test_it_can_be_ended(typed: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     """By q and by Ctrl-D; nothing was asked to its end."""
-    assert ask_all(Quiz("01-install", (LAMP,)), typing(typed)) == Round(0, 0)
+    assert ask_all(Quiz("01-install", (LAMP,)), typing(typed)) == QuizRound(0, 0)
 
 
 # --- what is kept ------------------------------------------------------------------------------
@@ -145,9 +147,9 @@ def test_the_best_round_is_kept(tmp_path: Path) -> None:
 )
 def test_a_score_that_cannot_be_is_damage(entry: str) -> None:
     """The file is then set aside."""
-    with pytest.raises(Damaged):
+    with pytest.raises(DamagedProgress):
         progress_in(f'{{"schema": 1, "quizzes": {{"05-actions": {entry}}}}}'.encode())
-    assert progress_in(b'{"schema": 1, "labs": {}}') == Progress()
+    assert progress_in(b'{"schema": 1, "labs": {}}') == StudentProgress()
 
 
 # --- as it is typed ----------------------------------------------------------------------------

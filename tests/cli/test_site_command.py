@@ -9,8 +9,15 @@ from pathlib import Path
 
 import pytest
 
-from roslings import built_site
-from roslings.built_site import BROUGHT, BUILT_HERE, forget, is_up_to_date, note_texts, tell
+from roslings.commands import built_site
+from roslings.commands.built_site import (
+    BROUGHT,
+    BUILT_HERE,
+    forget,
+    is_up_to_date,
+    note_texts,
+    tell,
+)
 from roslings.course import root
 from roslings_class import release
 from roslings_learn.drills import all_drills

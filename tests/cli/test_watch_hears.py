@@ -17,13 +17,13 @@ from watch_terminal import watching
 from ros2_on_pip.keyboard import keys_of
 from roslings.course import all_labs, lab
 from roslings.workspace.progress import record_drill
-from roslings.workspace.progress_file import LabProgress, Progress, as_json
+from roslings.workspace.progress_file import LabProgress, StudentProgress, as_json
 from roslings_launcher.cli import parser
 from roslings_learn.commands.watch import neighbour, next_name, run
 from roslings_learn.commands.watch.drill import begun as drill_begun
 from roslings_learn.commands.watch.keyboard import Keyboard
 from roslings_learn.commands.watch.lab import begun as lab_begun
-from roslings_learn.commands.watch.session import Ours, Session
+from roslings_learn.commands.watch.session import Ours, WatchSession
 from roslings_learn.drills import NoSuchDrill, all_drills, drill
 
 pytestmark = pytest.mark.timeout(method="thread")
@@ -141,7 +141,7 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def offered(session: Session) -> str:
+def offered(session: WatchSession) -> str:
     """The letters in the line of keys."""
     return "".join(sorted(each.key for each in session._all_offers() if each.now))
 
@@ -248,7 +248,7 @@ def test_when_all_is_done_it_is_said(workspace: Path, capsys: pytest.CaptureFixt
     done = LabProgress(100.0, 100.0, 1, now, now, now)
     file = workspace / ".roslings" / "progress.json"
     file.parent.mkdir()
-    file.write_text(as_json(Progress({each.name: done for each in all_labs()})))
+    file.write_text(as_json(StudentProgress({each.name: done for each in all_labs()})))
     assert run(parser().parse_args(["watch", "--plain"])) == 0
     assert "Well done" in capsys.readouterr().out
 

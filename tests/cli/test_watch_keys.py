@@ -11,7 +11,7 @@ import pytest
 from watch_terminal import watching
 
 from roslings.course import all_labs, lab, root
-from roslings_learn.commands.watch.editing import Place, editor_for, first_to_do, is_there
+from roslings_learn.commands.watch.editing import FileLine, editor_for, first_to_do, is_there
 from roslings_learn.drills import all_drills
 
 EDITOR = """#!/bin/sh
@@ -124,16 +124,16 @@ def test_the_first_thing_to_do_is_where_the_editor_opens(tmp_path: Path) -> None
     (package / "chatter").mkdir(parents=True)
     (package / "setup.py").write_text("# TODO 1\n")
     (package / "chatter" / "listener.py").write_text("import rclpy\n")
-    assert first_to_do(package) == Place(package / "chatter" / "listener.py")
+    assert first_to_do(package) == FileLine(package / "chatter" / "listener.py")
     (package / "chatter" / "talker.py").write_text("import rclpy\n# TODO 2: a timer\n")
-    assert first_to_do(package) == Place(package / "chatter" / "talker.py", 2)
+    assert first_to_do(package) == FileLine(package / "chatter" / "talker.py", 2)
 
 
 def test_an_editor_that_is_set_wins_but_in_vs_code(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """`code` is asked for the line; another one gets the file; with none the place is told."""
-    place, words = Place(tmp_path / "talker.py", 7), ("VISUAL", "EDITOR", "TERM_PROGRAM")
+    place, words = FileLine(tmp_path / "talker.py", 7), ("VISUAL", "EDITOR", "TERM_PROGRAM")
     for name in ("code", "nano"):
         (tmp_path / name).write_text("#!/bin/sh\n")
         (tmp_path / name).chmod(0o755)
@@ -169,7 +169,7 @@ def test_an_editor_that_is_there_is_offered(
         (tmp_path / name).write_text("#!/bin/sh\n")
         (tmp_path / name).chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
-    place = Place(tmp_path / "talker.py", 7)
+    place = FileLine(tmp_path / "talker.py", 7)
     assert editor_for(place, tmp_path) == (opens and [*opens, str(place.file)])
     assert is_there() is bool(opens)
 
@@ -183,4 +183,7 @@ def test_an_editor_of_a_window_gets_no_line(
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.setenv("VISUAL", "thonny")
     monkeypatch.delenv("TERM_PROGRAM", raising=False)
-    assert editor_for(Place(tmp_path / "a.py", 7), tmp_path) == ["thonny", str(tmp_path / "a.py")]
+    assert editor_for(FileLine(tmp_path / "a.py", 7), tmp_path) == [
+        "thonny",
+        str(tmp_path / "a.py"),
+    ]

@@ -15,7 +15,15 @@ from pathlib import Path
 from roslings.course import Lab
 from roslings_learn.lessons.rules import Lesson
 
-KEPT = (ast.Import, ast.ImportFrom, ast.ClassDef, ast.FunctionDef, ast.Assign, ast.AnnAssign)
+KEPT = (
+    ast.Import,
+    ast.ImportFrom,
+    ast.ClassDef,
+    ast.FunctionDef,
+    ast.AsyncFunctionDef,
+    ast.Assign,
+    ast.AnnAssign,
+)
 MAIN = """
 
 def main():

@@ -17,7 +17,13 @@ from roslings_learn.jupyter.choosing import chosen_day, place_for
 from roslings_learn.jupyter.copies import Copies
 from roslings_learn.jupyter.errors import NoHub, NoSuchDay, NotWritten
 from roslings_learn.jupyter.meanings import with_meanings
-from roslings_learn.jupyter.server import Place, command, environment, open_lab, write_kernel
+from roslings_learn.jupyter.server import (
+    JupyterOptions,
+    command,
+    environment,
+    open_lab,
+    write_kernel,
+)
 from roslings_learn.jupyter.unrun import unrun
 from roslings_learn.lessons import Day, read_lessons
 from sources import python_path
@@ -160,8 +166,8 @@ def test_what_the_server_is_told(copies: Copies) -> None:
     assert f"--LabApp.default_url={LESSON}" in words
     assert f"--ServerApp.root_dir={copies.workspace.parent}" in words
     assert {"--ServerApp.port=9911", "--ServerApp.port_retries=0", "--no-browser"} <= set(words)
-    assert Place(copies, None).page == "/lab/tree/ws/notebooks/Days.md"
-    assert "--no-browser" not in command(Place(copies, None), share)
+    assert JupyterOptions(copies, None).page == "/lab/tree/ws/notebooks/Days.md"
+    assert "--no-browser" not in command(JupyterOptions(copies, None), share)
     assert "--LabApp.app_settings_dir=share/lab/settings" in words
 
 
@@ -179,7 +185,7 @@ def test_hub_typed_by_a_person_is_refused(copies: Copies, monkeypatch: pytest.Mo
     """With what belongs into JupyterHub's configuration."""
     monkeypatch.delenv("JUPYTERHUB_SERVICE_URL", raising=False)
     with pytest.raises(NoHub, match=r'c\.Spawner\.cmd = \[".*/roslings", "lab", "--hub"\]'):
-        open_lab(Place(copies, None, hub=True))
+        open_lab(JupyterOptions(copies, None, hub=True))
 
 
 def test_the_kernel_is_the_one_of_this_place(tmp_path: Path) -> None:

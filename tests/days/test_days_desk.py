@@ -14,7 +14,7 @@ import pytest
 from lesson_runs import lessons
 from ros2_on_pip.domain_lease import leased_domain
 from ros2_on_pip.rosbag2.metadata import Topic
-from ros2_on_pip.rosbag2.writing import BagWriter, Plan
+from ros2_on_pip.rosbag2.writing import BagWriter, BagWriterOptions
 from roslings.course import root
 from roslings_desk.tab import BUILT_IN
 
@@ -45,7 +45,7 @@ def test_what_a_lesson_types_opens_the_desk(day: str, words: str, tmp_path: Path
     from rclpy.serialization import serialize_message
     from std_msgs.msg import String
 
-    bag = BagWriter(tmp_path / "drive", Plan())
+    bag = BagWriter(tmp_path / "drive", BagWriterOptions())
     bag.add_topic(Topic("/word", "std_msgs/msg/String"))
     bag.write("/word", 1, serialize_message(String(data="hello")))
     bag.close()

@@ -12,7 +12,7 @@ import pytest
 from tiny_course import DAY, write_course
 
 from roslings.course import root
-from roslings_learn.lessons import One, Order, Quiz, Several, read_lessons
+from roslings_learn.lessons import One, OrderQuestion, Quiz, Several, read_lessons
 from roslings_learn.lessons.quiz import mixed
 from roslings_learn.lessons.quiz_text import as_text, without_links
 from roslings_learn.notebook import quiz as ask
@@ -187,7 +187,7 @@ def test_the_notebook_shows_what_is_read(number: int) -> None:
                 else [field.description for field in fields]
             )
             assert shown == [text.replace("`", "") for text in texts]
-        elif isinstance(each, Order):
+        elif isinstance(each, OrderQuestion):
             texts = [without_links(each.steps[place].text) for place in each.shown]
             assert list(fields[0].options)[1:] == [text.replace("`", "") for text in texts]
             assert each.shown != sorted(each.shown)

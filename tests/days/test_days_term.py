@@ -10,9 +10,9 @@ import pytest
 
 from lesson_runs import lessons
 from roslings.course import all_labs, lab, root
-from roslings_class.classroom import Offer, told
+from roslings_class.classroom import Handout, told
 from roslings_launcher.cli import parser
-from roslings_launcher.machine import Machine
+from roslings_launcher.machine import WheelPlatform
 from roslings_launcher.readiness import readiness
 from roslings_learn.lessons.rules import Lesson
 from roslings_rover.usual_place import told_of
@@ -189,7 +189,7 @@ def shown(first: str) -> str:
 
 def test_what_new_prints_is_shown_as_it_is(tmp_path: Path) -> None:
     """On Ubuntu 24.04; sizes are those of a day."""
-    ubuntu = Machine("Linux", "x86_64", 64, (2, 39), (3, 12), cpython=True)
+    ubuntu = WheelPlatform("Linux", "x86_64", 64, (2, 39), (3, 12), cpython=True)
     seen = readiness(ubuntu, {"PATH": "/nowhere"}, tmp_path, root=tmp_path)
     printed = "\n".join(["This machine:", *map(str, seen)])
     sizes = re.compile(r"[\d.]+ GB free|about \d+")
@@ -201,7 +201,7 @@ def test_what_serve_prints_is_shown_as_it_is() -> None:
     address = "http://192.168.0.10:8000"
     rclpy = "ros_rclpy-7.1.6-cp312-cp312-manylinux_2_28_x86_64.whl"
     wheels = {name: Path() for name in (rclpy, *map(str, range(141)))}
-    printed = told(Offer({}, wheels, has_site=True), [address, "http://127.0.0.1:8000"])
+    printed = told(Handout({}, wheels, has_site=True), [address, "http://127.0.0.1:8000"])
     assert shown(f"The course can be had at {address}") == printed
 
 

@@ -15,7 +15,7 @@ from tiny_course import DAY, write_course
 from roslings.course import all_labs, root
 from roslings_learn.jupyter import server
 from roslings_learn.jupyter.copies import Copies
-from roslings_learn.jupyter.server import LABEXTENSIONS, Place, command
+from roslings_learn.jupyter.server import LABEXTENSIONS, JupyterOptions, command
 from roslings_learn.jupyter.window.layout import (
     DayWindow,
     day_window,
@@ -126,7 +126,7 @@ def test_a_workspace_outside_of_the_home_is_shown_too(tmp_path: Path) -> None:
     copies = Copies(tmp_path / "course", Path("/volume"), lessons.glossary)
     assert copies.root == Path("/")
     assert copies.path_of(copies.folder / DAY) == f"volume/notebooks/{DAY}"
-    page = Place(copies, DAY).page
+    page = JupyterOptions(copies, DAY).page
     assert page == f"/lab/workspaces/{DAY}/tree/volume/notebooks/{DAY}/lesson.ipynb"
 
 
@@ -137,11 +137,11 @@ def test_a_browser_of_another_system_is_led_by_the_address(
     for name in ("WSL_DISTRO_NAME", "CODESPACE_NAME"):
         monkeypatch.delenv(name, raising=False)
     by_address = "--ServerApp.use_redirect_file=False"
-    assert by_address not in command(Place(copies, None), Path("share"))
+    assert by_address not in command(JupyterOptions(copies, None), Path("share"))
     monkeypatch.setenv("WSL_DISTRO_NAME", "Ubuntu")
-    assert by_address in command(Place(copies, None), Path("share"))
+    assert by_address in command(JupyterOptions(copies, None), Path("share"))
     monkeypatch.setenv("CODESPACE_NAME", "odd.name-1")
-    words = command(Place(copies, None), Path("share"))
+    words = command(JupyterOptions(copies, None), Path("share"))
     (pattern,) = [word for word in words if "allow_origin_pat" in word]
     pattern = pattern.partition("=")[2]
     assert re.fullmatch(pattern, "https://odd.name-1-8888.app.github.dev")
@@ -158,7 +158,9 @@ def test_without_bash_a_terminal_is_what_jupyter_takes(
 ) -> None:
     """And the page opens all the same."""
     monkeypatch.setattr(server.shutil, "which", lambda name: None)
-    assert not [word for word in command(Place(copies, None), Path("share")) if "terminado" in word]
+    assert not [
+        word for word in command(JupyterOptions(copies, None), Path("share")) if "terminado" in word
+    ]
 
 
 def test_the_page_has_its_part_of_the_window() -> None:
@@ -190,8 +192,8 @@ def test_one_notebook_of_a_window_is_in_its_domain(monkeypatch: pytest.MonkeyPat
 
 def test_the_hub_opens_the_same_window(copies: Copies) -> None:
     """JupyterHub's server of one user is told the same."""
-    alone = command(Place(copies, "05-actions"), Path("share"))
-    by_hub = command(replace(Place(copies, "05-actions"), hub=True), Path("share"))
+    alone = command(JupyterOptions(copies, "05-actions"), Path("share"))
+    by_hub = command(replace(JupyterOptions(copies, "05-actions"), hub=True), Path("share"))
     of_window = [word for word in alone if "window" in word or "workspaces" in word]
     assert len(of_window) >= 5
     assert {word.replace("LabApp.def", "ServerApp.def") for word in of_window} <= set(by_hub)

@@ -21,7 +21,13 @@ from window import Window, day_window
 
 from lessons_as_tests import surroundings
 from roslings_learn.jupyter.copies import Copies
-from roslings_learn.jupyter.server import Place, command, environment, workspaces, write_kernel
+from roslings_learn.jupyter.server import (
+    JupyterOptions,
+    command,
+    environment,
+    workspaces,
+    write_kernel,
+)
 from roslings_learn.jupyter.window.layout import LAYOUT, ROVER, lay_out
 from roslings_learn.jupyter.window.layout import day_window as planned
 from roslings_learn.lessons import read_lessons
@@ -179,7 +185,7 @@ def below_a_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Se
     copies.copy_all(lessons.days)
     lay_out(planned(lessons.days[0], copies), workspaces(copies.workspace))
     share = write_kernel(Path(sys.prefix), copies.workspace)
-    words = command(Place(copies, DAY, browser=False), share)
+    words = command(JupyterOptions(copies, DAY, browser=False), share)
     seen = {**environment(share), **variables, "HOME": str(tmp_path)}
     (tmp_path / ".bashrc").write_text("PS1='ready> '\n")
     with serving([*words, f"--ServerApp.base_url={BELOW}"], seen, tmp_path) as address:

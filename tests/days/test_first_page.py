@@ -20,6 +20,7 @@ from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import root
 from roslings.evidence import evidence_json, read_json
 from roslings_rover.rover import default_world
+from script_groups import groups_of_commands
 
 PAGE = root() / "days" / "01-install" / "first-15-minutes.md"
 MOST_COMMANDS = 9
@@ -260,12 +261,7 @@ def follow_the_page(reader: Reader) -> None:
 
 def test_one_download_is_enough_for_the_page() -> None:
     """What its first command installs, all others find there."""
-    script = (root() / "roslings").read_text("utf-8")
-    groups = {
-        name: set(found[2].split())
-        for found in re.finditer(r"^ +([\w |-]+)\)\s+echo ([\w ]+) ;;", script, re.M)
-        for name in found[1].split(" | ")
-    }
+    groups = groups_of_commands()
     typed = [line.split() for block in commands() for line in block.lines]
     first, *later = (words for words in typed if words[0] in ("./roslings", "ros2"))
     there = groups[first[1]]

@@ -15,6 +15,7 @@ from student import BLOCK, Student, placed, save_as
 from terminals import until
 
 from ros2_on_pip.domain_lease import leased_domain
+from roslings.capabilities.actions.contract import ActionWords
 from roslings.course import lab, root
 from roslings_rover.models.world import Box, default_world
 from skips import needs
@@ -76,7 +77,7 @@ def test_the_function_of_the_page_tells_who_is_stuck(distances: list[float], stu
 
 def test_its_seconds_are_those_of_the_lab() -> None:
     """At the card's rate of feedback."""
-    (performs,) = LAB.card.nodes[0].performs
+    (performs,) = LAB.card.nodes[0].of(ActionWords).performs
     assert performs.feedback is not None
     assert is_stuck()["PATIENCE"] == 5 * performs.feedback.hz
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from roslings.course import root
-from roslings_rover.board import Chip, Drive, LineReader, Mega, Speeds, Spoiler, framed
+from roslings_rover.board import Chip, DriveCommand, LineReader, Mega, Speeds, Spoiler, framed
 from roslings_rover.emulated import EmulatedMega, built
 from roslings_rover.models.board_lines import LONGEST_LINE
 from roslings_rover.models.differential_drive import moved
@@ -70,7 +70,7 @@ def test_speeds_come_every_20_ms_of_its_clock_and_none_is_left_out(chip: Chip) -
 def test_every_line_has_its_checksum(chip: Chip) -> None:
     """Nothing but whole lines comes out."""
     reader = LineReader()
-    chip.receive(Drive(1, 200, -200).line())
+    chip.receive(DriveCommand(1, 200, -200).line())
     said = chip.step(3.0)
     said = said[: said.rindex(b"\n") + 1]
     assert len(reader.feed(said)) == said.count(b"\n")
@@ -81,7 +81,7 @@ def test_a_command_turns_the_wheels_and_is_acknowledged(chip: Chip) -> None:
     """PWM 255 is the fastest; the speed told is the speed that is."""
     said = b""
     for seq in range(8):
-        chip.receive(Drive(seq, 255, -102).line())
+        chip.receive(DriveCommand(seq, 255, -102).line())
         said += chip.step(0.1)
     assert bodies(said, "A") == [f"A,{seq}" for seq in range(8)]
     fastest = Body().fastest_wheel_rad_s
@@ -95,16 +95,16 @@ def test_a_command_turns_the_wheels_and_is_acknowledged(chip: Chip) -> None:
 @pytest.mark.parametrize(("left", "right"), [(0, 0), (1, -1), (255, 255), (-255, 254), (128, 0)])
 def test_the_motors_get_exactly_what_was_sent(chip: Chip, left: int, right: int) -> None:
     """Also the two ends, which the sketch switches without a timer."""
-    chip.receive(Drive(7, 9, 9).line())
+    chip.receive(DriveCommand(7, 9, 9).line())
     chip.step(0.05)
-    chip.receive(Drive(8, left, right).line())
+    chip.receive(DriveCommand(8, left, right).line())
     chip.step(0.05)
     assert (chip.truth.left_pwm, chip.truth.right_pwm) == (left, right)
 
 
 def test_half_a_second_without_a_command_stops_the_motors(chip: Chip) -> None:
     """Once, and counted once."""
-    chip.receive(Drive(1, 80, 80).line())
+    chip.receive(DriveCommand(1, 80, 80).line())
     chip.step(0.45)
     assert chip.truth.left_pwm == 80
     chip.step(0.1)
@@ -116,7 +116,7 @@ def test_half_a_second_without_a_command_stops_the_motors(chip: Chip) -> None:
 def test_a_command_in_time_keeps_them_going(chip: Chip) -> None:
     """Every 0.4 s is enough."""
     for seq in range(10):
-        chip.receive(Drive(seq, 80, 80).line())
+        chip.receive(DriveCommand(seq, 80, 80).line())
         chip.step(0.4)
     assert len(chip.applied) == 1
 
@@ -124,8 +124,8 @@ def test_a_command_in_time_keeps_them_going(chip: Chip) -> None:
 SPOILT = {
     "wrong checksum": b"$M,1,200,200*0000\n",
     "no checksum": b"$M,1,200,200\n",
-    "checksum in small letters": Drive(1, 200, 200).line().lower().replace(b"$m", b"$M"),
-    "a digit changed": Drive(1, 100, 100).line().replace(b"100", b"200", 1),
+    "checksum in small letters": DriveCommand(1, 200, 200).line().lower().replace(b"$m", b"$M"),
+    "a digit changed": DriveCommand(1, 100, 100).line().replace(b"100", b"200", 1),
     "too fast": framed("M,1,256,0"),
     "too slow": framed("M,1,0,-999"),
     "one number": framed("M,1,200"),
@@ -142,10 +142,10 @@ SPOILT = {
 @pytest.mark.parametrize("line", SPOILT.values(), ids=SPOILT.keys())
 def test_a_spoilt_command_is_counted_and_moves_nothing(chip: Chip, line: bytes) -> None:
     """The motors keep what they had; the next good command counts."""
-    chip.receive(Drive(1, 60, 60).line() + line)
+    chip.receive(DriveCommand(1, 60, 60).line() + line)
     chip.step(0.1)
     assert (chip.truth.left_pwm, chip.truth.right_pwm) == (60, 60)
-    chip.receive(Drive(2, -30, 30).line())
+    chip.receive(DriveCommand(2, -30, 30).line())
     chip.step(0.1)
     assert (chip.truth.left_pwm, chip.truth.right_pwm) == (-30, 30)
     assert report(chip)[:2] == (2, 1)
@@ -153,7 +153,7 @@ def test_a_spoilt_command_is_counted_and_moves_nothing(chip: Chip, line: bytes) 
 
 def test_half_a_line_costs_only_itself(chip: Chip) -> None:
     """A `$` begins anew, without an end of line between."""
-    chip.receive(b"$M,1,200,20" + Drive(2, 50, 50).line())
+    chip.receive(b"$M,1,200,20" + DriveCommand(2, 50, 50).line())
     chip.step(0.1)
     assert chip.truth.left_pwm == 50
     assert report(chip)[:2] == (1, 1)
@@ -161,7 +161,7 @@ def test_half_a_line_costs_only_itself(chip: Chip) -> None:
 
 def test_a_command_in_single_bytes_is_one_command(chip: Chip) -> None:
     """With pauses between them, and with the end of line of a Windows computer."""
-    for byte in Drive(3, 70, 71).line().replace(b"\n", b"\r\n"):
+    for byte in DriveCommand(3, 70, 71).line().replace(b"\n", b"\r\n"):
         chip.receive(bytes([byte]))
         chip.step(0.005)
     assert (chip.truth.left_pwm, chip.truth.right_pwm) == (70, 71)
@@ -170,7 +170,7 @@ def test_a_command_in_single_bytes_is_one_command(chip: Chip) -> None:
 def test_bytes_between_the_lines_are_passed_over(chip: Chip) -> None:
     """As long as none of them begins a line."""
     nonsense = bytes(b for b in range(256) if b != ord("$")) * 3
-    chip.receive(nonsense + Drive(4, 33, 33).line() + nonsense)
+    chip.receive(nonsense + DriveCommand(4, 33, 33).line() + nonsense)
     chip.step(0.4)
     assert chip.truth.left_pwm == 33
 
@@ -181,7 +181,7 @@ def test_no_wrong_command_ever_reaches_the_motors(chip: Chip) -> None:
     chance, spoil = random.Random(5), Spoiler(6, noise=0.004, half_lines=0.1, wrong_checksums=0.1)
     sent = {(0, 0)}
     for seq in range(300):
-        drive = Drive(seq, chance.randrange(-255, 256), chance.randrange(-255, 256))
+        drive = DriveCommand(seq, chance.randrange(-255, 256), chance.randrange(-255, 256))
         sent.add((drive.left_pwm, drive.right_pwm))
         chip.receive(spoil(drive.line()))
         chip.step(0.01)
@@ -193,7 +193,7 @@ def test_no_wrong_command_ever_reaches_the_motors(chip: Chip) -> None:
 
 def test_a_flood_of_commands_ends_with_the_last_one(chip: Chip) -> None:
     """As fast as the cable carries them."""
-    flood = b"".join(Drive(i, i % 200, -i % 200).line() for i in range(400))
+    flood = b"".join(DriveCommand(i, i % 200, -i % 200).line() for i in range(400))
     for begin in range(0, len(flood), 115):
         chip.receive(flood[begin : begin + 115])
         chip.step(0.01)
@@ -211,7 +211,7 @@ def test_its_speeds_add_up_to_where_the_rover_is(chip: Chip, pwm: tuple[int, int
     """Odometry from the lines alone, compared with the truth: 1 cm and 1 degree after 3 s."""
     said = b""
     for seq in range(15):
-        chip.receive(Drive(seq, *pwm).line())
+        chip.receive(DriveCommand(seq, *pwm).line())
         said += chip.step(0.2)
     said += chip.step(1.0)
     there = odometry(speeds(said))
@@ -237,7 +237,7 @@ def test_a_rover_at_a_wall_tells_that_its_wheels_stand() -> None:
     mega = Mega(Rover(World(room=Box(-1, -1, 0.5, 1))))
     said = b""
     for seq in range(20):
-        mega.receive(Drive(seq, 255, 255).line())
+        mega.receive(DriveCommand(seq, 255, 255).line())
         said += mega.step(0.2)
     assert mega.truth.left_pwm == 255
     assert speeds(said)[-1].left_mrad_s == 0
@@ -248,7 +248,7 @@ def test_steps_of_any_length_give_the_same_lines() -> None:
     """Time is kept in whole microseconds, so nothing is lost between steps."""
     fine, coarse = Mega(Rover(FLOOR)), Mega(Rover(FLOOR))
     for mega in (fine, coarse):
-        mega.receive(Drive(1, 100, 50).line())
+        mega.receive(DriveCommand(1, 100, 50).line())
     in_one = coarse.step(1.0)
     in_many = b"".join(fine.step(1 / 3000) for _ in range(3000)) + fine.step(1e-6)
     assert [s.seq for s in speeds(in_many)] == [s.seq for s in speeds(in_one)]
@@ -263,7 +263,7 @@ def test_the_model_rover_and_the_wheels_agree() -> None:
         round(w / body.fastest_wheel_rad_s * 255) for w in (wheels.left_rad_s, wheels.right_rad_s)
     ]
     mega = Mega(Rover(FLOOR))
-    mega.receive(Drive(0, *pwm).line())
+    mega.receive(DriveCommand(0, *pwm).line())
     mega.step(0.45)
     assert mega.rover.motion.forward_m_s == pytest.approx(0.3, rel=0.02)
     assert mega.rover.motion.turn_rad_s == pytest.approx(0.5, rel=0.02)

@@ -154,7 +154,7 @@ class Draw:
     def of(self, annotation: Any) -> Any:
         """A value of a field."""
         origin, inside = typing.get_origin(annotation), typing.get_args(annotation)
-        if annotation is Any:
+        if annotation in (Any, object):
             return self.value(self.shape(2))
         if is_record(annotation):
             hints = typing.get_type_hints(annotation)

@@ -7,12 +7,11 @@ from collections.abc import Iterator
 import pytest
 
 from roslings.course import all_labs, lab
-from roslings.evidence import Evidence, LogLine, ProcessSeen
+from roslings.evidence import Evidence, LogLine, ProcessSeen, read_json
 from roslings.judge import NothingToJudge, judge
 from roslings.judge.faults import Inconclusive
 from roslings.judge.views import ExperimentView
 from roslings.verdict import CheckResult
-from roslings_class.grading import unpacked
 from roslings_learn.drills.judging import judged
 from roslings_learn.drills.steps import Step
 from roslings_prove.proofs.kept import kept_here
@@ -53,7 +52,9 @@ def programs() -> Iterator[tuple[str, str, Evidence]]:
 
 def good(name: str) -> Evidence:
     """Of the solution, as it is kept."""
-    return unpacked(kept_here().evidence(lab(name), "solution").read_bytes())
+    content = kept_here().archives(lab(name)).evidence("solution")
+    assert content
+    return read_json(content)
 
 
 def told(checks: tuple[CheckResult, ...]) -> list[CheckResult]:

@@ -7,15 +7,16 @@ from typing import Any
 
 import pytest
 
+from graders.black_box.contract import BagWords
 from graders.black_box.demands import read_to_the_end
 from graders.black_box.faults import ReadingNeverEnds
 from graders.black_box.record import BagGiven, BagsSeen
-from roslings.course import lab
+from roslings.course import lab, written
 from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen
-from roslings.exits import without_interrupt
 from roslings.judge import ExperimentView, exit_cleanly
 from roslings.judge.demands import come_up
 from roslings.judge.faults import DidNotComeUp, Fault, UncleanExit
+from roslings.seen.exits import without_interrupt
 from roslings_learn.drills.card import DrillCard
 from roslings_learn.drills.judging import judged
 from roslings_learn.drills.steps import PROGRAM, steps_of
@@ -91,6 +92,7 @@ def drill(seen: ProcessSeen) -> ExperimentView:
 
 
 CARD = lab("black-box").card
+READER = written(CARD.of(BagWords).reads_bags, CARD.package)
 RUNS_ON = DrillCard.model_validate(
     {
         "title": "It prints",
@@ -114,7 +116,7 @@ def prints(seen: ExperimentView) -> None:
 @pytest.mark.parametrize(
     ("demand", "made", "kind"),
     [
-        (read_to_the_end(CARD.reads_bags, "drive", "a bag"), black_box, ReadingNeverEnds),
+        (read_to_the_end(READER, "drive", "a bag"), black_box, ReadingNeverEnds),
         (lambda seen: come_up(seen.labelled("it")), view, DidNotComeUp),
         (prints, drill, Fault),
     ],

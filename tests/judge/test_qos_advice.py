@@ -24,15 +24,22 @@ from roslings.capabilities.qos.record import JoinSeen, QosSeen
 from roslings.course import NodeContract, QosContract, TopicContract, all_labs, root
 from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen, Qos
 from roslings.judge import ExperimentView, have_just_this_qos, match_qos
-from roslings.judge.faults import EndpointKind, Fault, Matched, python_words, qos_conflicts
-from roslings.judge.faults.qos import CALLS, OtherQos
+from roslings.judge.faults import (
+    CALLS,
+    EndpointKind,
+    Fault,
+    MatchedPolicies,
+    python_words,
+    qos_conflicts,
+)
+from roslings.judge.faults.qos import OtherQos
 from roslings_learn.drills.course import all_drills
 from skips import imported
 
 rclpy_qos = imported("rclpy.qos")
 KINDS: tuple[EndpointKind, ...] = get_args(EndpointKind)
 PAIRS = [
-    Matched(*pair)
+    MatchedPolicies(*pair)
     for pair in itertools.product(("reliable", "best_effort"), ("volatile", "transient_local"))
 ]
 TOPIC, OTHER = "/heard", "/other"
@@ -61,9 +68,9 @@ def run(advice: str) -> Any:
     return rclpy_qos.QoSProfile(depth=value) if isinstance(value, int) else value
 
 
-def policies_of(profile: Any) -> Matched:
+def policies_of(profile: Any) -> MatchedPolicies:
     """What the middleware would tell of it."""
-    return Matched(profile.reliability.name.lower(), profile.durability.name.lower())
+    return MatchedPolicies(profile.reliability.name.lower(), profile.durability.name.lower())
 
 
 def view(kind: EndpointKind, qos: Qos, part: QosSeen | None = None) -> ExperimentView:
@@ -89,7 +96,9 @@ def fault_of(demand: Callable[[ExperimentView], None], seen: ExperimentView) -> 
 # --- reliability and durability ----------------------------------------------------------------
 
 
-def judged(asked: Matched, exact: bool, kind: EndpointKind) -> Callable[[ExperimentView], None]:
+def judged(
+    asked: MatchedPolicies, exact: bool, kind: EndpointKind
+) -> Callable[[ExperimentView], None]:
     """What each lab and each drill asks of an endpoint with this card."""
     contract = TopicContract(
         topic=TOPIC,
@@ -105,18 +114,20 @@ def judged(asked: Matched, exact: bool, kind: EndpointKind) -> Callable[[Experim
     return look
 
 
-def seen_as(pair: Matched) -> Qos:
+def seen_as(pair: MatchedPolicies) -> Qos:
     """With a deadline besides, which no advice may take away."""
     return Qos(**pair.policies, deadline_ns=S)
 
 
-def rows() -> Iterator[tuple[Matched, bool, EndpointKind, Matched]]:
+def rows() -> Iterator[tuple[MatchedPolicies, bool, EndpointKind, MatchedPolicies]]:
     """Asked, whether just this, kind, seen."""
     yield from itertools.product(PAIRS, (True, False), KINDS, PAIRS)
 
 
 @pytest.mark.parametrize(("asked", "exact", "kind", "seen"), [*rows()], ids=str)
-def test_who_follows_passes(asked: Matched, exact: bool, kind: EndpointKind, seen: Matched) -> None:
+def test_who_follows_passes(
+    asked: MatchedPolicies, exact: bool, kind: EndpointKind, seen: MatchedPolicies
+) -> None:
     """By the words alone, by the whole profile, and by the shorter word where there is one."""
     look = judged(asked, exact, kind)
     fault = fault_of(look, view(kind, seen_as(seen)))
@@ -146,7 +157,7 @@ def assert_it_is_of_this_card(fault: Fault, kind: EndpointKind) -> None:
 
 
 @pytest.mark.parametrize("asked", PAIRS, ids=str)
-def test_the_kind_stands_in_what_is_expected(asked: Matched) -> None:
+def test_the_kind_stands_in_what_is_expected(asked: MatchedPolicies) -> None:
     """Also where one node publishes and subscribes on one topic."""
     for exact, kind, seen in itertools.product((True, False), KINDS, PAIRS):
         if fault := fault_of(judged(asked, exact, kind), view(kind, seen_as(seen))):
@@ -155,7 +166,7 @@ def test_the_kind_stands_in_what_is_expected(asked: Matched) -> None:
 
 def test_a_stop_button_is_not_advised_to_lose_presses() -> None:
     """The case that was: a guard that hears /e_stop best effort, and commands that are kept."""
-    button = judged(Matched("reliable", "transient_local"), True, "subscription")
+    button = judged(MatchedPolicies("reliable", "transient_local"), True, "subscription")
     fault = fault_of(button, view("subscription", Qos(reliability="best_effort")))
     assert isinstance(fault, OtherQos)
     assert fault.profile == (
@@ -163,7 +174,7 @@ def test_a_stop_button_is_not_advised_to_lose_presses() -> None:
         " durability=DurabilityPolicy.TRANSIENT_LOCAL)"
     )
     assert "sensor_data" not in fault.mend
-    commands = judged(Matched("best_effort", "volatile"), False, "subscription")
+    commands = judged(MatchedPolicies("best_effort", "volatile"), False, "subscription")
     kept = fault_of(
         commands, view("subscription", Qos(reliability="best_effort", durability="transient_local"))
     )
@@ -191,7 +202,9 @@ def test_no_card_asks_what_is_not_in_the_table() -> None:
     nodes = [node for lab in all_labs() for node in lab.card.nodes]
     nodes += [node for drill in all_drills() for node in drill.card.nodes]
     topics = [topic for node in nodes for topic in (*node.publishes, *node.subscribes)]
-    assert {Matched(each.qos.reliability, each.qos.durability) for each in topics} <= set(PAIRS)
+    assert {MatchedPolicies(each.qos.reliability, each.qos.durability) for each in topics} <= set(
+        PAIRS
+    )
     assert set(QosContract.model_fields) == {"reliability", "durability", "exact"}
 
 

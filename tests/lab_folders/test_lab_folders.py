@@ -14,8 +14,8 @@ import pytest
 
 from roslings.capabilities.conformance import PURE, RUNS
 from roslings.course import Lab, all_labs, root
-from roslings.grader import load_grader
-from roslings.lab_folders import GRADERS, folder_beside, lab_folders
+from roslings.course.grader import load_grader
+from roslings.folders.lab_folders import GRADERS, folder_beside, lab_folders
 from roslings_launcher.sources import source_folders
 
 GRADER = "from graders.beacon.demands import WORD\n"
@@ -140,7 +140,8 @@ def test_a_lab_uses_its_own_folder_and_no_other(lab: Lab) -> None:
 )
 def test_what_reads_and_judges_runs_nothing(file: Path) -> None:
     """It imports neither ROS nor what measures, whoever leads there."""
-    source = "import importlib, sys, roslings.lab_folders\nimportlib.import_module(sys.argv[1])\n"
+    source = "import importlib, sys, roslings.folders.lab_folders\n"
+    source += "importlib.import_module(sys.argv[1])\n"
     source += f"print(*[name for name in {RUNS} if name in sys.modules])"
     words = [sys.executable, "-c", source, f"{GRADERS}.{file.parent.name}.{file.stem}"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)

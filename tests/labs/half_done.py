@@ -18,6 +18,7 @@ from pathlib import Path
 from roslings.course import Lab
 
 TODO = re.compile(r"TODO (\d+)")
+Function = ast.FunctionDef | ast.AsyncFunctionDef
 Words = Mapping[int, tuple[str, ...]]
 """TODO to what its statements begin with, or hold in their first line."""
 
@@ -248,7 +249,7 @@ class Module:
     whole: str
     done: int
     words: Mapping[str, Words]
-    _begun_functions: dict[str, ast.FunctionDef] = field(init=False)
+    _begun_functions: dict[str, Function] = field(init=False)
 
     def __post_init__(self) -> None:
         """Reads both."""
@@ -277,7 +278,7 @@ class Module:
         """What is there of one statement of a module or a class."""
         if isinstance(node, ast.ClassDef):
             return [self._class(node)]
-        if isinstance(node, ast.FunctionDef):
+        if isinstance(node, Function):
             return self._function(inside + node.name, node)
         words = self.words.get(ast.unparse(node)[:4], {})
         return [node] if max(words, default=0) <= self.done else []
@@ -289,7 +290,7 @@ class Module:
         made.body = [kept for each in node.body for kept in self._kept(f"{node.name}.", each)]
         return made
 
-    def _function(self, name: str, node: ast.FunctionDef) -> list[ast.stmt]:
+    def _function(self, name: str, node: Function) -> list[ast.stmt]:
         """The function with the statements that are done; as in the starter where none is."""
         begun = self._begun_functions.get(name)
         todos = self._todos_of(begun)
@@ -302,7 +303,7 @@ class Module:
             made.body = self._completed(made.body, begun)
         return [made]
 
-    def _docstring_nodes(self, node: ast.FunctionDef) -> int:
+    def _docstring_nodes(self, node: Function) -> int:
         return 2 if ast.get_docstring(node) else 0
 
     def _statements(
@@ -317,7 +318,7 @@ class Module:
                         setattr(made, part, kept or ([ast.Pass()] if part == "body" else []))
                 yield made
 
-    def _completed(self, body: list[ast.stmt], begun: ast.FunctionDef | None) -> list[ast.stmt]:
+    def _completed(self, body: list[ast.stmt], begun: Function | None) -> list[ast.stmt]:
         """With the starter's own name of a node, and with what its function gives back."""
         there = "".join(map(ast.unparse, body))
         given = begun.body if begun else []
@@ -327,7 +328,7 @@ class Module:
         last = [each for each in given[-1:] if isinstance(each, ast.Return)]
         return [*names, *body, *last]
 
-    def _todos_of(self, begun: ast.FunctionDef | None) -> list[int]:
+    def _todos_of(self, begun: Function | None) -> list[int]:
         """The TODOs in the starter's function: what stands below it and is indented more."""
         if begun is None:
             return []
@@ -337,10 +338,10 @@ class Module:
         return numbers("\n".join(lines[:end]))
 
 
-def functions(tree: ast.Module) -> Iterator[tuple[str, ast.FunctionDef]]:
+def functions(tree: ast.Module) -> Iterator[tuple[str, Function]]:
     """Every function, with the name of its class."""
     for node in tree.body:
-        if isinstance(node, ast.FunctionDef):
+        if isinstance(node, Function):
             yield node.name, node
         if isinstance(node, ast.ClassDef):
             yield from ((f"{node.name}.{f.name}", f) for f in node.body if is_function(f))  # type: ignore[misc]
@@ -348,7 +349,7 @@ def functions(tree: ast.Module) -> Iterator[tuple[str, ast.FunctionDef]]:
 
 def is_function(node: ast.stmt) -> bool:
     """It defines one."""
-    return isinstance(node, ast.FunctionDef)
+    return isinstance(node, Function)
 
 
 def todo_of(statement: ast.stmt, words: Words, where: str = "") -> int:

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Literal
 
 from roslings.course import Lab
-from roslings.grader import Clock
+from roslings.course.grader import Clock
 from roslings.workspace.inspect import inspect_package
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 
 Kind = Literal["empty", "starter", "idle"]
 SCRIPTS = re.compile(r"'console_scripts': \[.*?\]", re.DOTALL)
@@ -64,7 +64,7 @@ class Nothing:
         make_empty(package) if self.kind == "empty" else make_idle(package, self.lab)
         return package.parent
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """The checks that pass and should not, or that should and do not."""
         checks = result.verdict.checks if result.verdict else ()
         passed = {check.id for check in checks if check.outcome == "pass"}

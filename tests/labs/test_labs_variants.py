@@ -9,12 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from roslings import variants
-from roslings.course import Lab, all_labs, root
+from roslings.course import Lab, all_labs, root, variants
 from roslings.course.contract import as_typed
 from roslings.course.files import BadCourseFile, read_yaml
 from roslings.course.task import is_current
-from roslings.variants import Chosen, Variants, VariantWord, chosen, variants_of
+from roslings.course.variants import LabVariant, Variants, VariantWord, chosen, variants_of
 from roslings_prove.variants import InOwnWords, SolutionEdits, all_values
 
 LABS = [lab for lab in all_labs() if variants_of(lab)]
@@ -30,7 +29,7 @@ def words(lab: Lab) -> Variants:
 
 def made(lab: Lab, said: dict[str, variants.Plain], folder: Path) -> Lab:
     """The lab, in a course with these words."""
-    where = Chosen(lab, words(lab), said).make(folder)
+    where = LabVariant(lab, words(lab), said).make(folder)
     return Lab(lab.name, where / "labs" / lab.name, where / "graders" / lab.grader.name)
 
 
@@ -63,7 +62,7 @@ def test_card_task_hints_and_starter_say_the_same(
     assert own.hints.keys() == lab.hints.keys()
     for name, value in said.items():
         word = words(lab).words[name]
-        at = Chosen(lab, words(lab), said)
+        at = LabVariant(lab, words(lab), said)
         before = at.value_before(name)
         if isinstance(value, str) and "{" not in value:
             gone = rf"(?<![\w/]){re.escape(before)}(?![\w/])"
@@ -81,7 +80,7 @@ def test_no_sentence_says_a_number_of_the_card(lab: Lab, said: dict[str, variant
     prose = sections.sub("", lab.task.read_text("utf-8"))
     prose += (lab.folder / "hints.yaml").read_text("utf-8")
     for name, value in said.items():
-        before = Chosen(lab, words(lab), said).value_before(name)
+        before = LabVariant(lab, words(lab), said).value_before(name)
         if not isinstance(value, str):
             assert not re.search(rf"(?<![\w.]){before:g} ?(Hz|m/s)", prose), name
 
@@ -187,6 +186,6 @@ def test_a_place_in_the_starter_must_fit(copied: Lab, tmp_path: Path) -> None:
     word = VariantWord.model_validate(
         {"at": {"nodes.1.log": "{value}"}, "values": ["a", "b"], "starter": [edit]}
     )
-    own = Chosen(copied, Variants(words={"log": word}), {"log": "a"})
+    own = LabVariant(copied, Variants(words={"log": word}), {"log": "a"})
     with pytest.raises(BadCourseFile, match="stands 0 times in chatter"):
         own.make(tmp_path / "made")

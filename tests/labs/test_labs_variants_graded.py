@@ -16,7 +16,7 @@ import pytest
 from ros2_on_pip.errors import INCONCLUSIVE
 from roslings.course import lab, root
 from roslings.course.files import read_yaml
-from roslings.variants import chosen
+from roslings.course.variants import chosen
 from roslings_prove.variants import InOwnWords, SolutionEdits
 from until_told import until_told
 
@@ -118,7 +118,7 @@ def test_a_student_begins_with_the_own_card(tmp_path: Path) -> None:
     assert printed
     said = roslings(*typed("start topics", tmp_path), code=0, home=tmp_path)
     assert said.replace(str(tmp_path), "~").startswith(printed[1])
-    task = re.search(r"^Read the task: (.+)$", said, re.M)
+    task = re.search(r"^Read the task:\s+(\S+)$", said, re.M)
     assert task
     text = Path(task[1].replace("~", str(tmp_path))).read_text("utf-8")
     assert "`Step 0 is done`" in text and "Hello robotics" not in text

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from roslings.course import all_labs
-from roslings.variants import variants_of
+from roslings.course.variants import variants_of
 
 LABS = [lab.name for lab in all_labs() if variants_of(lab)]
 

@@ -27,7 +27,7 @@ from few import few_labs
 from once import once
 from roslings.course import Lab, Mutant, all_labs
 from roslings_prove.proofs.command import newest_commit
-from roslings_prove.prove import Package, Proof, Wrong, gradings_fit
+from roslings_prove.prove import MutantPackage, Proof, ProvenPackage, gradings_fit
 from skips import skip_without
 from until_told import checked
 
@@ -63,20 +63,20 @@ def test_the_starter_does_not_pass(lab: Lab, tmp_path: Path) -> None:
 # --- the mutants, all at once ------------------------------------------------------------------
 
 
-def mutants() -> Iterator[Wrong]:
+def mutants() -> Iterator[MutantPackage]:
     """Every mutant of every lab."""
     for lab in LABS.values():
         for mutant in lab.mutants():
-            yield Wrong(lab, mutant)
+            yield MutantPackage(lab, mutant)
 
 
-def in_real_time() -> Iterator[Wrong]:
+def in_real_time() -> Iterator[MutantPackage]:
     """Those about rates, and one more for each check that is judged from the same experiment."""
     seen: set[tuple[str, ...]] = set()
     for mutant in LABS[CLOCKED].mutants():
         if _is_timed(mutant) and ("rate" in mutant.fails or mutant.fails not in seen):
             seen.add(mutant.fails)
-            yield Wrong(LABS[CLOCKED], mutant, clock="wall")
+            yield MutantPackage(LABS[CLOCKED], mutant, clock="wall")
 
 
 def _is_timed(mutant: Mutant) -> bool:
@@ -135,14 +135,14 @@ def without_much() -> Iterator[Nothing]:
         yield Nothing(LABS[name], "idle", files | END & LABS[name].card.points.keys() | nodes)
 
 
-ALL: dict[str, Wrong | Nothing] = {
+ALL: dict[str, MutantPackage | Nothing] = {
     package.name: package for package in (*mutants(), *in_real_time(), *without_much())
 }
 
 
 def packages(clock: str) -> pytest.MarkDecorator:
     """One test for each mutant, named LAB-MUTANT."""
-    wrong = (package for package in ALL.values() if isinstance(package, Wrong))
+    wrong = (package for package in ALL.values() if isinstance(package, MutantPackage))
     chosen = [package for package in wrong if package.clock == clock]
     names = [f"{each.lab.name}-{each.mutant.name}" for each in chosen]
     return pytest.mark.parametrize("package", [each.name for each in chosen], ids=names)
@@ -151,7 +151,7 @@ def packages(clock: str) -> pytest.MarkDecorator:
 @pytest.fixture(scope="session")
 def proof_of(request: pytest.FixtureRequest, shared_folder: Path) -> Callable[[str], Proof]:
     """Package to what came of it; all that this test run asks for are graded in one go."""
-    asked: dict[str, Package] = {}
+    asked: dict[str, ProvenPackage] = {}
     for _, words in asked_for(request, __file__):
         if name := words.get("package"):
             asked[name] = ALL[name]
@@ -172,14 +172,14 @@ def proof_of(request: pytest.FixtureRequest, shared_folder: Path) -> Callable[[s
     return of
 
 
-def in_turn(asked: Mapping[str, Package]) -> list[Package]:
+def in_turn(asked: Mapping[str, ProvenPackage]) -> list[ProvenPackage]:
     """In an order of chance; those for which no time is left are others at the next commit."""
     names = sorted(asked)
     random.Random(newest_commit()).shuffle(names)
     return [asked[name] for name in names]
 
 
-def _proofs(packages: Sequence[Package]) -> list[Proof]:
+def _proofs(packages: Sequence[ProvenPackage]) -> list[Proof]:
     """What came of each; one that was wrong beside the others may hold `TIMES_ALONE` alone.
 
     An unsteady one is told: `pytest` lists the warnings at its end.

@@ -51,10 +51,10 @@ Verdicts = dict[str, dict[str, Said]]
 def record(file: Path, labs: Sequence[str], jobs: int | None) -> None:
     """Grade what the file does not know yet."""
     from roslings.course import all_labs
-    from roslings_prove.prove import Package, packages_of
+    from roslings_prove.prove import ProvenPackage, packages_of
 
     known = verdicts_in(file)
-    packages: list[Package] = [
+    packages: list[ProvenPackage] = [
         each
         for lab in all_labs()
         if not labs or lab.name in labs

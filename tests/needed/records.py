@@ -1,14 +1,16 @@
 """What is kept of each test file: `tests/proofs/needs`.
 
-    states.txt      a line for each need in some state: KIND (a letter) DIGEST PATH
-    records.jsonl   a line for each test file: how it was run, and its needs by their lines there
+    states.txt.xz     a line for each need in some state: KIND (a letter) DIGEST PATH
+    records.jsonl.xz  a line for each test file: how it was run, and its needs by their lines there
 
-Many test files need the same files in the same state, so each state is written once.
+Many test files need the same files in the same state, so each state is written once. Both are
+packed: plain they would be a large part of what may be kept with the proofs.
 """
 
 from __future__ import annotations
 
 import json
+import lzma
 import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -18,7 +20,7 @@ from typing import Any, cast
 
 from needed.tree import Kind, Need
 
-STATES, RECORDS = "states.txt", "records.jsonl"
+STATES, RECORDS = "states.txt.xz", "records.jsonl.xz"
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,7 @@ class Records:
 
     def _lines(self, name: str) -> list[str]:
         file = self.folder / name
-        return file.read_text("utf-8").splitlines() if file.exists() else []
+        return lzma.decompress(file.read_bytes()).decode().splitlines() if file.exists() else []
 
     def write(self, records: Iterable[Record]) -> None:
         """All of them, in place of what was there."""
@@ -75,7 +77,7 @@ class Records:
 
     def _replace(self, name: str, lines: Iterable[str]) -> None:
         part = self.folder / f"{name}.part"
-        part.write_text("".join(f"{line}\n" for line in lines), "utf-8")
+        part.write_bytes(lzma.compress("".join(f"{line}\n" for line in lines).encode()))
         part.replace(self.folder / name)
 
     def add(self, record: Record, there: Iterable[str]) -> None:

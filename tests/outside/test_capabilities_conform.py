@@ -1,23 +1,37 @@
-"""Each built-in capability, and each of a lab, holds what any capability must hold."""
+"""Each capability that is here, built in or found, holds what any capability must hold."""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 import pytest
 
 from roslings.capabilities.conformance import CHECKS, Check
-from roslings.capability import BUILT_IN, Capability, capability, of_labs
+from roslings.capability import BUILT_IN, Capability, capabilities, capability, of_labs
 from roslings.record import PartSeen
+from roslings_class.outside import packages_of_capabilities
 
-OF_LABS = [each.name for each in of_labs()]
+HERE = [each.name for each in capabilities()]
 
 
-@pytest.mark.parametrize("name", [*BUILT_IN, *OF_LABS])
+def test_all_are_looked_at() -> None:
+    """Those of the table, those of labs, and rooms, which an entry point of the engine names."""
+    assert {*HERE} >= {*BUILT_IN, "rooms", *(each.name for each in of_labs())}
+
+
+@pytest.mark.parametrize("name", HERE)
 @pytest.mark.parametrize("holds", CHECKS, ids=lambda check: check.__name__)
 def test_a_capability_of_this_course_holds_it(holds: Check, name: str) -> None:
     """The same checks as another course's capability."""
     known = capability(name)
     assert known is not None
     holds(known)
+
+
+def test_what_the_engine_offers_goes_with_the_engine(tmp_path: Path) -> None:
+    """An edition of another course has no package more for it."""
+    assert capability("rooms")
+    assert packages_of_capabilities(tmp_path) == []
 
 
 class Bad(PartSeen):

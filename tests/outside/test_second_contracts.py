@@ -122,7 +122,22 @@ LOOKOUT = Contract(
         ),
     ),
 )
-CONTRACTS = (ALMANAC, LIGHTHOUSE, LOOKOUT)
+QUAY = "pilotage/pilot.py"
+PILOT = Contract(
+    "harbour",
+    "pilot",
+    "pilotage",
+    (
+        Wrong(
+            "asks_for_reliable_scans",
+            QUAY,
+            "look, qos_profile_sensor_data",
+            "look, 10",
+            ("drives",),
+        ),
+    ),
+)
+CONTRACTS = (ALMANAC, LIGHTHOUSE, LOOKOUT, PILOT)
 WRONG = [(each, wrong) for each in CONTRACTS for wrong in each.wrong]
 
 

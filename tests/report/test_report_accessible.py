@@ -11,24 +11,24 @@ from written_evidence import evidence, messages, steady, talking
 from written_verdicts import full_score, inconclusive, three_faults, too_slow, verdict
 
 from roslings.course import lab
-from roslings.report.html import Asked, Own, html_of
-from roslings.report.typed import Typed
+from roslings.report.command_line import CommandLine
+from roslings.report.html import Own, RequiredRate, html_of
 from roslings.verdict import Verdict
 from roslings_class.gradebook import gradebook
 from roslings_class.handing_out import hand_out
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from skips import imported
 
 Axe = imported("axe_playwright_python.sync_playwright").Axe
 
 TOPICS = lab("topics")
-ASKED = [Asked("/chatter", "std_msgs/msg/String", 2.0, 1.9, 2.1)]
+ASKED = [RequiredRate("/chatter", "std_msgs/msg/String", 2.0, 1.9, 2.1)]
 LOOKS = [(width, scheme) for width in (1280, 390) for scheme in ("light", "dark")]
 
 
-def graded(name: str, found: Verdict, hz: float) -> Result:
+def graded(name: str, found: Verdict, hz: float) -> GradingResult:
     """A submission that was judged."""
-    return Result(
+    return GradingResult(
         submission=name,
         digest=name,
         attempt=1,
@@ -42,7 +42,7 @@ def graded(name: str, found: Verdict, hz: float) -> Result:
 def pages(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     """One page of every kind."""
     folder = tmp_path_factory.mktemp("pages")
-    refused = Result(
+    refused = GradingResult(
         submission="eve",
         digest="e",
         attempt=1,
@@ -60,7 +60,7 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 
 def _verdicts(folder: Path) -> Iterator[Path]:
     seen = evidence(talking(messages(steady(1.0, 12))))
-    own = Own(Typed("topics"), "file:///site")
+    own = Own(CommandLine("topics"), "file:///site")
     for number, found in enumerate((full_score(), too_slow(), three_faults(), inconclusive())):
         page = folder / f"verdict-{number}.htm"
         page.write_text(html_of(found, seen, ASKED, own), "utf-8")

@@ -15,7 +15,7 @@ from roslings_class.gradebook import gradebook
 from roslings_class.handing_out import Settings, hand_out, keep
 from roslings_class.overview import overview
 from roslings_class.overview_page import write_overview
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 
 TOPICS = lab("topics")
 COUNT = 120
@@ -45,12 +45,12 @@ def number_of(number: int) -> str:
     return f"s{1000 + number}"
 
 
-def _result(number: int) -> Result:
+def _result(number: int) -> GradingResult:
     words: dict[str, Any] = {"submission": number_of(number), "digest": "d", "attempt": 1}
     if number == 9:
-        return Result(**words, state="refused", reason="No package is in it. " * 20)
+        return GradingResult(**words, state="refused", reason="No package is in it. " * 20)
     found = full_score() if number % 4 else too_slow()
-    return Result(**words, state="graded", verdict=found)
+    return GradingResult(**words, state="graded", verdict=found)
 
 
 @pytest.fixture

@@ -31,7 +31,7 @@ from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import Edit
 from roslings.judge.sheet import dependants
 from roslings.verdict import CheckResult
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_prove.proofs.command import newest_commit
 
 Entry = Attempt | Parcel
@@ -95,12 +95,12 @@ def hang(
     with stage(ordinary) as made, leased_domain() as domain:
         for edit in without:
             apply(edit, made.course / edit.file)
-        with listening(made.mark, made.home) as ear, robot(domain, made.folder) as heard:
+        with listening(made.mark, made.home) as listener, robot(domain, made.folder) as heard:
             for entry in entries:
-                _hand_in(entry, made, ear.port, domain)
+                _hand_in(entry, made, listener.port, domain)
             made.give_away()
             gallery = _grade(entries, made, jobs)
-        gallery.heard = [*ear.heard, *heard]
+        gallery.heard = [*listener.heard, *heard]
         return gallery
 
 
@@ -190,7 +190,7 @@ def _seen(entry: Entry, made: Stage) -> Seen:
     return seen_of(results[entry.name], made).model_copy(update={"neighbour": neighbour})
 
 
-def seen_of(result: Result, made: Stage) -> Seen:
+def seen_of(result: GradingResult, made: Stage) -> Seen:
     """What stands in the gradebook of one submission."""
     evidence = made.evidence(result)
     lines = list(said(evidence)) if evidence else []

@@ -17,7 +17,7 @@ from multiprocessing import active_children
 from pathlib import Path
 
 from roslings.course import lab
-from roslings.experiment import Choices, measuring_process
+from roslings.experiment import MeasuringOptions, measuring_process
 from roslings.judge import judge
 from roslings.workspace.inspect import inspect_package
 
@@ -70,7 +70,7 @@ def grade_here(name: str, package: Path) -> Peaks:
 
     one = lab(name)
     files = inspect_package(package, one.card)
-    with measuring_process(one.name, Choices(seed=1)) as begun:
+    with measuring_process(one.name, MeasuringOptions(seed=1)) as begun:
         (process,) = active_children()
         measured = Watched(process.pid or 0)
         evidence = begun.measure(package, files, lambda step: None)

@@ -26,7 +26,7 @@ from roslings.course import root
 from roslings.evidence import Evidence
 from roslings_class.gradebook import gradebook
 from roslings_class.grading import unpacked
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.signed_gradebook import take_key
 from sources import python_path
 
@@ -199,7 +199,7 @@ class Stage:
             command.kill()
             command.wait()
 
-    def results(self) -> dict[str, Result]:
+    def results(self) -> dict[str, GradingResult]:
         """What stands in the gradebook. Raises where that is not whole."""
         connection = sqlite3.connect(self.out / "gradebook.sqlite")
         assert connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
@@ -207,7 +207,7 @@ class Stage:
         with gradebook(self.out, LAB.name) as book:
             return book.latest()
 
-    def evidence(self, result: Result) -> Evidence | None:
+    def evidence(self, result: GradingResult) -> Evidence | None:
         """What a result was judged from."""
         with gradebook(self.out, LAB.name) as book:
             take_key(book, self.out)
@@ -370,28 +370,28 @@ def listening(mark: str, folder: Path) -> Iterator[Ear]:
         named = stack.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_STREAM))
         named.bind(str(folder / "socket"))
         (folder / "socket").chmod(0o777)
-        ear = Ear(port)
+        listener = Ear(port)
         for each in (tcp, abstract, named):
             each.listen()
         done = threading.Event()
-        thread = threading.Thread(target=_hear, args=(ear, (tcp, abstract, named), udp, done))
+        thread = threading.Thread(target=_hear, args=(listener, (tcp, abstract, named), udp, done))
         thread.start()
         stack.callback(thread.join)
         stack.callback(done.set)
-        yield ear
+        yield listener
 
 
 def _hear(
-    ear: Ear, streams: tuple[socket.socket, ...], udp: socket.socket, done: threading.Event
+    listener: Ear, streams: tuple[socket.socket, ...], udp: socket.socket, done: threading.Event
 ) -> None:
     for each in (*streams, udp):
         each.settimeout(0.05)
     while not done.is_set():
         for each in streams:
             with suppress(TimeoutError), each.accept()[0]:
-                ear.heard.append(f"a connection to {each.getsockname()}")
+                listener.heard.append(f"a connection to {each.getsockname()}")
         with suppress(TimeoutError):
-            ear.heard.append(f"a datagram: {udp.recv(100)!r}")
+            listener.heard.append(f"a datagram: {udp.recv(100)!r}")
 
 
 def own_address() -> str:

@@ -31,7 +31,7 @@ from stage import SANDBOX, TIME, UNTIL_S
 
 from asked_for import MADE_FOR_ALL, asked_for
 from once import once
-from roslings.hand_in.errors import Refused
+from roslings.hand_in.errors import HandInRefused
 from roslings.hand_in.unpack import package_in
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.inspect import inspect_package
@@ -71,7 +71,7 @@ def test_a_hostile_parcel_is_refused(parcel: Parcel, tmp_path: Path) -> None:
     handed_in, room = tmp_path / f"it{parcel.ending}", tmp_path / "room"
     room.mkdir()
     parcel.make(handed_in)
-    with pytest.raises((Refused, WorkspaceError), match=parcel.refused):
+    with pytest.raises((HandInRefused, WorkspaceError), match=parcel.refused):
         inspect_package(package_in(handed_in, "chatter", room), LAB.card)
     assert {path.name for path in tmp_path.iterdir()} == {handed_in.name, "room"}
     assert {path.name for path in room.iterdir()} <= {"unpacked"}

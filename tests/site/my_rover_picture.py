@@ -12,12 +12,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from roslings.course import root
-from roslings_my_rover.chosen import Absent
+from roslings_my_rover.chosen import AbsentPart
 from roslings_my_rover.parts import EYES, GUARD, LIMITER, PARTS, day_number, labs_of_parts
 from roslings_my_rover.robot import STATUS, MyRover
 from roslings_rover.models.differential_drive import Motion
-from roslings_rover.rover.ears import Sentence
 from roslings_rover.rover.rover import Rover
+from roslings_rover.rover.subscriptions import HeardSentence
 from roslings_rover.rover.text_map import ASCII, cells
 from roslings_rover.rover.words import beside
 
@@ -50,7 +50,7 @@ def _parts() -> Iterator[str]:
     labs = labs_of_parts()
     for part in PARTS:
         if part in (EYES, LIMITER, GUARD):
-            yield Absent(part, labs[part.name]).line
+            yield AbsentPart(part, labs[part.name]).line
         else:
             yield f"{part.name:8} {REMARKS.get(part.name, '')}".rstrip()
     assert day_number(labs["eyes"]) == 7
@@ -59,7 +59,7 @@ def _parts() -> Iterator[str]:
 def screen() -> list[str]:
     """The lines of the terminal."""
     node = rover()
-    said = Sentence("Robot status count: 42", STATUS)
+    said = HeardSentence("Robot status count: 42", STATUS)
     rows = cells(node.rover, WIDE, HIGH, ASCII, f'"{said.text}"')
     words = beside(node)
     words += [""] * (len(rows) - len(words))

@@ -36,7 +36,17 @@ from roslings.course import lab, root
 from roslings.verdict import Verdict
 from roslings.workspace.best import keep_best
 from roslings.workspace.progress import record
-from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PACE, PILOT, SONAR, VOICE, Part
+from roslings_my_rover.parts import (
+    CABLE,
+    EYES,
+    GUARD,
+    LIMITER,
+    PACE,
+    PILOT,
+    SONAR,
+    VOICE,
+    RoverPart,
+)
 
 sys.path += [
     str(root() / each)
@@ -270,7 +280,7 @@ class Win:
 
     day: int
     lab: str
-    parts: tuple[Part, ...]
+    parts: tuple[RoverPart, ...]
     play: Callable[[Screen], None]
     alt: str
     words: str = ""
@@ -388,7 +398,7 @@ def seen(win: Win, home: Path) -> list[Shot]:
     ]
 
 
-def _has_passed(workspace: Path, part: Part) -> None:
+def _has_passed(workspace: Path, part: RoverPart) -> None:
     """Its package is there, and `check` has given it all points."""
     put(workspace, part)
     own = lab(part.lab)

@@ -14,7 +14,7 @@ import pytest
 from site_rules import HEAVIEST_BYTES, weight_bytes
 from two_days_site import BUILDER, build
 
-from roslings.built_site import is_up_to_date
+from roslings.commands.built_site import is_up_to_date
 from roslings_launcher import progress
 
 PAGE = "days/01-install/lesson.ipynb"

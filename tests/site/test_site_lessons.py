@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from roslings.course import root
-from roslings_learn.lessons import BadLessons, Problem, read_lessons
+from roslings_learn.lessons import BadLessons, DocumentProblem, read_lessons
 
 LESSONS = read_lessons(root())
 TERMS = LESSONS.glossary.by_id.values()
@@ -99,7 +99,7 @@ def spoil(course: Path, name: str, find: str, replace: str) -> int:
     return text[: text.index(find)].count("\n") + 1
 
 
-def only_problem(course: Path, name: str) -> Problem:
+def only_problem(course: Path, name: str) -> DocumentProblem:
     """The one thing that is told."""
     with pytest.raises(BadLessons) as told:
         read_lessons(course)
@@ -196,7 +196,7 @@ def test_a_quiz_of_an_unknown_day(course: Path) -> None:
     assert all("'01-install'" in each.mend for each in told)
 
 
-def caught(course: Path) -> tuple[Problem, ...]:
+def caught(course: Path) -> tuple[DocumentProblem, ...]:
     """All that is told."""
     with pytest.raises(BadLessons) as told:
         read_lessons(course)

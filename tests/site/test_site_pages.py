@@ -174,7 +174,7 @@ def test_the_first_screen_of_a_lesson_has_its_card_and_its_drawing(visit: Visit)
     assert box
     assert box["y"] + box["height"] < 900
     assert page.locator(".cell_input:visible").first.bounding_box()["y"] > box["y"]
-    imports = page.locator(".tag_imports pre").first
+    imports = page.locator("details", has_text="The imports of this page").locator("pre").first
     assert not imports.is_visible()
     page.get_by_text("The imports of this page").click()
     assert imports.is_visible()
@@ -279,7 +279,7 @@ def test_the_side_bar_has_one_entry_a_day(visit: Visit) -> None:
     page = visit.go("index.html")
     days = page.locator(".sidebar-tree .toctree-l1", has_text=re.compile(r"Day \d"))
     assert days.count() == 2
-    assert days.first.locator(".toctree-l2", has_text="Quiz").count() == 1
+    assert days.first.locator("li", has_text="Quiz").count() == 1
 
 
 def test_dark_mode_is_a_choice_that_stays(visit: Visit) -> None:

@@ -11,7 +11,7 @@ import pytest
 from two_days_site import Visit
 
 from roslings_learn.lessons import read_lessons
-from roslings_learn.lessons.quiz import Chosen
+from roslings_learn.lessons.quiz import ChoiceQuestion
 from roslings_learn.lessons.quiz_text import as_text, without_links
 from roslings_learn.notebook.quiz_widgets import drawn
 
@@ -61,7 +61,7 @@ def test_all_places_show_the_choices_in_one_order(visit: Visit, site: Path) -> N
     """Page, key, page of answers (which is printed), review, Anki, and the notebook's two forms."""
     quiz = read_lessons(site.parents[1]).quiz("01-install")
     assert quiz
-    asked = [each for each in quiz.questions if isinstance(each, Chosen)]
+    asked = [each for each in quiz.questions if isinstance(each, ChoiceQuestion)]
     texts = [[without_links(choice.text) for choice in each.choices] for each in asked]
     right = [[n for n, choice in enumerate(each.choices) if choice.right] for each in asked]
     assert [choice.right for choice in asked[0].choices] != [True, False, False]  # as it is written

@@ -13,7 +13,7 @@ import pytest
 import yaml
 
 from roslings.course import all_labs, root
-from roslings.course.card import Card
+from roslings.course.card import Card, NodeContract
 from roslings.course.contract import Contract
 from roslings.course.files import BadCourseFile, read_tree, read_yaml
 from roslings.course.labs import example_root
@@ -46,30 +46,53 @@ def test_each_word_has_a_meaning_and_an_example(word: card_words.Word) -> None:
 
 def with_word(word: card_words.Word, example: card_words.Example, said: Any) -> Any:
     """The lab's card with the word in its place; of an example of no lab, a card that fits it."""
-    lab, place = (example.lab, example.place) if example.lab else place_for(word)
+    if example.lab:
+        tree, part = part_of_lab(example.lab, example.place)
+    else:
+        tree, part = part_for(word)
+    part[word.name] = said
+    return tree
+
+
+def part_of_lab(lab: str, place: card_words.Steps) -> tuple[Any, Any]:
+    """A lab's card, and the part of it in which this word stands."""
     tree = copy.deepcopy(read_tree(root() / "labs" / lab / "card.yaml"))
     part = tree
     for step in place[:-1]:
         part = part[step]
-    part[place[-1]] = said
-    return tree
+    return tree, part
 
 
-def place_for(word: card_words.Word) -> tuple[str, card_words.Steps]:
-    """Beside another word of the same part, which some lab has."""
-    other = next(
+def part_for(word: card_words.Word) -> tuple[Any, Any]:
+    """Beside another word of the same part in some lab; else inside the word that holds the part.
+
+    Where no lab has that word either, its own example makes the part.
+    """
+    beside = (
         each
         for (model, _), found in card_words.examples().items()
         if model is word.model
         for each in found
     )
-    return other.lab, (*other.place[:-1], word.name)
+    if other := next(beside, None):
+        return part_of_lab(other.lab, other.place)
+    holder = card_words.holders_of(word.model)[0]
+    tree, part = part_for(holder)
+    part[holder.name] = copy.deepcopy(holder.example.value)
+    return tree, part[holder.name]
 
 
 def test_an_example_that_is_wrong_is_not_accepted() -> None:
     """What the test above would find."""
     word = next(each for each in WORDS if each.key == "Rate.hz")
     with pytest.raises(ValueError, match="greater than 0"):
+        Card.model_validate(with_word(word, word.example, -1.0))
+
+
+def test_nor_is_one_deep_inside() -> None:
+    """Its number is read inside of all that holds it, whether or not a lab has that part."""
+    word = next(each for each in WORDS if each.key == "Wall.at_m")
+    with pytest.raises(ValueError, match=r"rooms\.wall\.at_m"):
         Card.model_validate(with_word(word, word.example, -1.0))
 
 
@@ -117,6 +140,20 @@ def parts_of(model: type[Contract]) -> Iterator[type[Contract]]:
     for each in model.__subclasses__():
         yield each
         yield from parts_of(each)
+
+
+@pytest.mark.parametrize(("model", "thing"), [(Card, "CARD"), (NodeContract, "NODE")])
+def test_the_page_tells_how_a_grader_says_a_word(model: type[Contract], thing: str) -> None:
+    """By the class of its capability, and never of another one's; the engine's need none."""
+    lines = card_words._by_class(model).splitlines()
+    brought = {name for each in card_words.brought_to(model) for name in each.model_fields}
+    own = next(each for each in model.__mro__[1:] if each.__name__ == model.__name__)
+    assert set(model.model_fields) == brought | set(own.model_fields) and brought
+    for words in card_words.brought_to(model):
+        said = card_words.said_by_class(words)
+        (line,) = (line for line in lines if f"`{said}`" in line)
+        assert said.startswith(f"{thing}.of({words.__name__}).") and f"`{words.__module__}`" in line
+        assert all(f"`{name}`" in line for name in words.model_fields)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from two_days_site import Visit
 
-from roslings.built_site import forget, tell
+from roslings.commands.built_site import forget, tell
 from roslings.verdict import Environment, Timings, Verdict
 from roslings.workspace import progress
 from roslings_learn.drills.course import all_drills

@@ -8,7 +8,7 @@ from pathlib import Path
 from roslings.course import lab
 from roslings.workspace.documents import LARGEST_BYTES, text_of
 from roslings.workspace.inspect import inspect_package
-from roslings_class.result import Order
+from roslings_class.result import GradingOrder
 
 LAB = lab("black-box")
 (NAME,) = LAB.card.documents
@@ -39,8 +39,8 @@ def test_a_reader_of_bags_names_its_package(tmp_path: Path) -> None:
 
 def test_only_what_was_handed_in_has_a_name() -> None:
     """A lab's own packages are called after what is wrong with them."""
-    order = Order(
+    order = GradingOrder(
         lab="topics", submission="ada", digest="", attempt=1, path=Path(), room=Path(), seed=0
     )
     assert order.handed_in_as == "ada"
-    assert order.model_copy(update={"builds_as_kin": True}).handed_in_as == ""
+    assert order.model_copy(update={"builds_from_cache": True}).handed_in_as == ""

@@ -10,7 +10,7 @@ import pytest
 
 from few import few
 from roslings.course import Lab, all_labs, lab
-from roslings.hand_in.errors import Refused
+from roslings.hand_in.errors import HandInRefused
 from roslings.hand_in.unpack import package_in
 from roslings.workspace import errors as trouble
 from roslings.workspace import progress
@@ -222,11 +222,11 @@ def test_the_package_of_another_lab_that_was_handed_in(tmp_path: Path, name: str
     for other in others(name):
         folder = tmp_path / f"{name}-{other}"
         finish(folder, other)
-        with pytest.raises(Refused) as told:
+        with pytest.raises(HandInRefused) as told:
             package_in(folder, lab(name).outline.package, tmp_path / "room")
         assert f"of the lab '{other}'" in told.value.reason
         assert "pack LAB" in told.value.next_step and "package.xml" not in told.value.next_step
     rename(folder / "src" / lab(other).outline.package, "week_two")
-    with pytest.raises(Refused, match="'week_two'") as told:
+    with pytest.raises(HandInRefused, match="'week_two'") as told:
         package_in(folder, lab(name).outline.package, tmp_path / "room")
     assert "package.xml" in told.value.next_step

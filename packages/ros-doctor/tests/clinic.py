@@ -13,7 +13,7 @@ from pathlib import Path
 from ros_doctor.breaks.injuries import HEALTHY
 from ros_doctor.examine import Examination, examine
 from ros_doctor.finding import Finding, Status
-from ros_doctor.machine import Interpreter, Machine
+from ros_doctor.machine import ExaminedMachine, Interpreter
 from ros_doctor.registry import find_check
 from ros_doctor.screen import Paint, lines_of
 
@@ -30,13 +30,13 @@ class Clinic:
 
     root: Path
     env: dict[str, str] = field(default_factory=dict)
-    machine: Machine = field(init=False)
+    machine: ExaminedMachine = field(init=False)
 
     def __post_init__(self) -> None:
         for folder in ("home/sam", "dev/shm", "usr/bin", "proc", "course", "home/sam/roslings_ws"):
             (self.root / folder).mkdir(parents=True)
         self.env = {"PATH": str(self.root / "usr/bin"), "SHELL": "/bin/bash", "DISPLAY": ":0"}
-        self.machine = Machine(
+        self.machine = ExaminedMachine(
             env=self.env,
             home=self.root / "home/sam",
             here=self.root / "home/sam",

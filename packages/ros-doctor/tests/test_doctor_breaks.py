@@ -14,7 +14,7 @@ from clinic import Clinic, change_text
 
 from ros_doctor.breaks import cli
 from ros_doctor.breaks.exercises import EXERCISES, Exercise
-from ros_doctor.breaks.grade import MARK, Grade, grade, what_is_lost
+from ros_doctor.breaks.grade import MARK, ExerciseGrade, grade, what_is_lost
 from ros_doctor.breaks.injuries import HEALTHY, NoColcon, build
 from ros_doctor.machine import this_machine
 from ros_doctor.registry import all_checks, find_check
@@ -57,7 +57,7 @@ def folder_of(clinic: Clinic, exercise: Exercise) -> Path:
     return clinic.machine.home / "roslings_breaks" / f"{exercise.number}-{exercise.name}"
 
 
-def graded(clinic: Clinic, exercise: Exercise) -> Grade:
+def graded(clinic: Clinic, exercise: Exercise) -> ExerciseGrade:
     return grade(exercise, folder_of(clinic, exercise), clinic.machine)
 
 
@@ -73,7 +73,7 @@ def test_a_workspace_is_ill_until_it_is_mended(at_home: Clinic, exercise: Exerci
     assert cli.main([number]) == 0
     assert cli.main([number, "--check"]) == 1
     MENDS[exercise.number](folder_of(at_home, exercise))
-    assert graded(at_home, exercise) == Grade(True)
+    assert graded(at_home, exercise) == ExerciseGrade(True)
     assert cli.main([number, "--check"]) == 0
 
 
@@ -115,14 +115,16 @@ def test_the_exercise_of_the_old_build_is_built_for_real(tmp_path: Path) -> None
     folder = tmp_path / "7-old-build"
     try:
         cli._injure(exercise, folder, machine)
-    except cli.WrongUse as problem:
+    except cli.WrongUseOfBreak as problem:
         assert isinstance(problem.__cause__, NoColcon)
         skip_without("colcon")
         raise
     ill = grade(exercise, folder, machine)
-    assert ill == Grade(False, "greeter/hello.py of greeter was changed after the last build.")
+    assert ill == ExerciseGrade(
+        False, "greeter/hello.py of greeter was changed after the last build."
+    )
     build(folder, machine)
-    assert grade(exercise, folder, machine) == Grade(True)
+    assert grade(exercise, folder, machine) == ExerciseGrade(True)
     assert [path.name for path in tmp_path.iterdir()] == ["7-old-build"]
 
 

@@ -14,7 +14,7 @@ from clinic import Clinic, assert_absent, assert_ill, assert_well
 from ros_doctor.examine import examine
 from ros_doctor.finding import Finding, Status
 from ros_doctor.live import conversation
-from ros_doctor.machine import Machine, this_machine
+from ros_doctor.machine import ExaminedMachine, this_machine
 from ros_doctor.registry import find_check
 from ros_doctor.ros import Ros, find_ros
 from skips import needs
@@ -24,11 +24,11 @@ ROS = find_ros(REAL)
 with_ros = needs("module rclpy")
 
 
-def look(machine: Machine, id: str) -> Finding:
+def look(machine: ExaminedMachine, id: str) -> Finding:
     return examine(machine, [find_check(id)]).results[0].finding
 
 
-def quiet_machine(domain: int) -> Machine:
+def quiet_machine(domain: int) -> ExaminedMachine:
     """Return the real machine, with a domain of its own and no settings of the caller's."""
     kept = {k: v for k, v in REAL.env.items() if not k.startswith(("ROS_", "RMW_", "FAST"))}
     distro = {"ROS_DISTRO": REAL.env["ROS_DISTRO"]} if "ROS_DISTRO" in REAL.env else {}
@@ -37,12 +37,12 @@ def quiet_machine(domain: int) -> Machine:
 
 
 @pytest.fixture
-def machine() -> Machine:
+def machine() -> ExaminedMachine:
     return quiet_machine(conversation.free_domain(REAL))
 
 
 @with_ros
-def test_well_talk(machine: Machine) -> None:
+def test_well_talk(machine: ExaminedMachine) -> None:
     assert_well(look(machine, "talk"))
 
 
@@ -54,7 +54,7 @@ def test_without_ros_there_is_no_talk(clinic: Clinic) -> None:
 
 @pytest.mark.slow
 @with_ros
-def test_ill_talk(machine: Machine) -> None:
+def test_ill_talk(machine: ExaminedMachine) -> None:
     """A middleware that is not installed ends each node; the check repeats what it said."""
     ill = replace(machine, env={**machine.env, "RMW_IMPLEMENTATION": "rmw_of_nobody"})
     assert_ill(look(ill, "talk"), "fault", "ended with an error")
@@ -104,7 +104,7 @@ rclpy.try_shutdown()
 
 
 @contextlib.contextmanager
-def node(ros: Ros, machine: Machine, kind: str, logs: Path) -> Iterator[None]:
+def node(ros: Ros, machine: ExaminedMachine, kind: str, logs: Path) -> Iterator[None]:
     env = conversation.quiet(machine, ros, logs, machine.env["ROS_DOMAIN_ID"])
     running = subprocess.Popen(
         [str(ros.python), "-c", CLASH, kind],
@@ -126,7 +126,7 @@ def node(ros: Ros, machine: Machine, kind: str, logs: Path) -> Iterator[None]:
 
 @pytest.mark.slow
 @with_ros
-def test_ill_qos(machine: Machine, tmp_path: Path) -> None:
+def test_ill_qos(machine: ExaminedMachine, tmp_path: Path) -> None:
     assert ROS is not None
     with node(ROS, machine, "talker", tmp_path), node(ROS, machine, "listener", tmp_path):
         finding = look(machine, "qos")
@@ -135,7 +135,7 @@ def test_ill_qos(machine: Machine, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 @with_ros
-def test_well_qos(machine: Machine, tmp_path: Path) -> None:
+def test_well_qos(machine: ExaminedMachine, tmp_path: Path) -> None:
     assert ROS is not None
     with node(ROS, machine, "talker", tmp_path), node(ROS, machine, "patient", tmp_path):
         assert_well(look(machine, "qos"))
@@ -150,7 +150,7 @@ def test_an_observer_that_fails_is_not_guessed(clinic: Clinic) -> None:
 
 @pytest.mark.slow
 @with_ros
-def test_nothing_is_left_behind(machine: Machine, tmp_path: Path) -> None:
+def test_nothing_is_left_behind(machine: ExaminedMachine, tmp_path: Path) -> None:
     """No process and no file remains of a proof. Its processes are known by their HOME."""
     env = {**machine.env, "HOME": str(tmp_path)}
     assert_well(look(replace(machine, env=env), "talk"))

@@ -17,10 +17,10 @@ from clinic import Clinic, public_key
 
 from ros_doctor import cli
 from ros_doctor.document import SCHEMA, document
-from ros_doctor.examine import Examination, Result, examine
+from ros_doctor.examine import Examination, ExaminedCheck, examine
 from ros_doctor.finding import Finding, Status, do, fault, ok, unknown
 from ros_doctor.redact import Secrets, redacted
-from ros_doctor.registry import Check, all_checks
+from ros_doctor.registry import DoctorCheck, all_checks
 from ros_doctor.screen import Paint, lines_of
 
 SOURCE = Path(cli.__file__).resolve().parents[1]
@@ -224,7 +224,9 @@ def test_a_command_is_printed_whole(clinic: Clinic) -> None:
 
 def pretend(*findings: Finding, machine: Clinic) -> Examination:
     check = QUICK[0]
-    return Examination(machine.machine, tuple(Result(check, one, 0.0) for one in findings), 0.1)
+    return Examination(
+        machine.machine, tuple(ExaminedCheck(check, one, 0.0) for one in findings), 0.1
+    )
 
 
 @pytest.mark.parametrize(
@@ -322,7 +324,7 @@ def test_list_shows_every_check() -> None:
 
 @pytest.mark.parametrize("check", all_checks(), ids=[check.id for check in all_checks()])
 def test_explain_tells_what_why_and_where(
-    check: Check,
+    check: DoctorCheck,
     clinic: Clinic,
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from ros_doctor.pages import page_of
-from ros_doctor.registry import Check, UnknownCheck, all_checks, find_check
+from ros_doctor.registry import DoctorCheck, UnknownCheck, all_checks, find_check
 
 HERE = Path(__file__).parent
 ROWS = range(1, 31)
@@ -40,7 +40,7 @@ def test_every_check_has_a_test_that_produces_it_and_one_that_does_not(kind: str
 
 
 @pytest.mark.parametrize("check", CHECKS, ids=IDS)
-def test_every_check_says_all_it_must(check: Check) -> None:
+def test_every_check_says_all_it_must(check: DoctorCheck) -> None:
     assert re.fullmatch(r"[a-z][a-z0-9-]{1,17}", check.id)
     assert 8 <= len(check.title) <= 58
     assert check.looks_at
@@ -51,7 +51,7 @@ def test_every_check_says_all_it_must(check: Check) -> None:
 
 
 @pytest.mark.parametrize("check", CHECKS, ids=IDS)
-def test_texts_are_plain(check: Check) -> None:
+def test_texts_are_plain(check: DoctorCheck) -> None:
     text = " ".join((check.title, check.symptom, check.looks_at, page_of(check)))
     assert "!" not in text
     assert not re.search(r"\b(please|simply|just|obviously|easy|easily)\b", text, re.I)

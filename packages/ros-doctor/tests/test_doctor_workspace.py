@@ -11,7 +11,7 @@ import pytest
 from clinic import Clinic, assert_absent, assert_ill, assert_well, change_text, ordinary_user
 
 from ros_doctor.finding import Status
-from ros_doctor.packages import Package, entry_point, read_setup
+from ros_doctor.packages import WorkspacePackage, entry_point, read_setup
 from ros_doctor.registry import all_checks
 from skips import needs
 
@@ -326,7 +326,7 @@ def test_an_odd_setup_py_is_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize("text", ["", "setup(**settings())", "setup(entry_points=a)\na = a", "\0"])
 def test_a_strange_setup_py_is_no_accident(tmp_path: Path, text: str) -> None:
     (tmp_path / "setup.py").write_text(text)
-    assert Package(tmp_path).setup is not None
+    assert WorkspacePackage(tmp_path).setup is not None
 
 
 def test_the_mend_of_a_missing_setup_cfg_works_when_it_is_typed(clinic: Clinic) -> None:

@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from importlib import import_module
 
 from terminal import Ran, Shell
 
@@ -27,7 +28,12 @@ def run(shell: Shell, *words: str, stdin: str = "") -> Ran:
 
 @contextmanager
 def surroundings_of(shell: Shell) -> Iterator[None]:
-    """The environment of `shell`."""
+    """The environment of `shell`.
+
+    ROS is there before: the first import says in the environment where its files lie, and all later
+    tests of this process need that.
+    """
+    import_module("rclpy")
     before = dict(os.environ)
     os.environ.clear()
     os.environ.update(shell.environment)

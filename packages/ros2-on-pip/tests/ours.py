@@ -3,7 +3,7 @@
 import sys
 
 from ros2_on_pip.cli import quietly
-from ros2_on_pip.leaving import leave
+from ros2_on_pip.quick_exit import leave
 
 if __name__ == "__main__":
     leave(quietly(sys.argv[1:]))

@@ -10,11 +10,16 @@ import pytest
 from terminal import Shell
 
 from ros2_on_pip.absent import ABSENT
+from ros2_on_pip.command_names import COMMANDS
 from ros2_on_pip.well_known import WELL_KNOWN, absent
 
 TOLD = {**ABSENT, **WELL_KNOWN}
 
-BEGINS = "from ros2_on_pip import absent; import sys; sys.exit(absent.{}(['x']))"
+BEGINS = (
+    "import sys; from ros2_on_pip import windows; windows._offered = dict;"
+    " from {0} import {1}; sys.exit({1}(['x']))"
+)
+"""A name is typed where no other package offers a window for it."""
 MANIFEST = "<package><name>{name}</name></package>"
 
 
@@ -170,18 +175,23 @@ def test_ones_own_package_of_such_a_name_is_not_hidden(empty: Shell, workspace: 
     assert "Build first" in ran.err
 
 
-@pytest.mark.parametrize("command", ["rqt", "rqt_console", "rqt_plot", "rviz2"])
-def test_a_command_of_the_full_ros_says_so(empty: Shell, command: str) -> None:
+@pytest.mark.parametrize(
+    ("command", "place"),
+    [(name, place.partition(":")[0]) for who, name, _, place in COMMANDS if not who],
+)
+def test_a_command_of_the_full_ros_says_so(empty: Shell, command: str, place: str) -> None:
     """Typed alone, it is found, and names what to use."""
+    told = absent(command)
+    assert told is not None
     done = subprocess.run(
-        [sys.executable, "-c", BEGINS.format(command)],
+        [sys.executable, "-c", BEGINS.format(place, command)],
         env=empty.environment | {"PATH": "/usr/bin:/bin"},
         capture_output=True,
         text=True,
         check=False,
     )
     assert done.returncode == 2
-    assert done.stderr.rstrip() == ABSENT[command].told(command)
+    assert done.stderr.rstrip() == told.told(command)
 
 
 def test_there_is_no_version_option(empty: Shell) -> None:

@@ -10,17 +10,17 @@ from typing import Any
 import pytest
 from terminal import HERE
 
-from ros2_on_pip.launching.context import LaunchContext
+from ros2_on_pip.launching.context import Around, LaunchContext
 from ros2_on_pip.launching.markup.building import TAGS
 from ros2_on_pip.launching.parameters import value_of
 from ros2_on_pip.launching.places import BadLaunchFile
 from ros2_on_pip.launching.reading import description_in
-from ros2_on_pip.launching.screen import Screen
+from ros2_on_pip.launching.screen import LaunchOutput
 
 SAMPLES = {
     "append_env": '<append_env name="A" value="b" prepend="true" separator=":"/>',
     "arg": '<arg name="a" default="b" description="c"><choice value="b"/></arg>',
-    "executable": '<executable cmd="echo a" name="b" cwd="/" output="screen" launch_prefix="env"'
+    "executable": '<executable cmd="echo a" name="b" cwd="/" output="screen" launch-prefix="env"'
     ' respawn="false"><env name="A" value="b"/></executable>',
     "group": '<group scoped="true" forwarding="false"><keep name="a" value="b"/></group>',
     "include": '<include file="$(dirname)/inner.launch.xml"><arg name="who" value="b"/></include>',
@@ -29,6 +29,7 @@ SAMPLES = {
     "node": '<node pkg="demo_nodes_py" exec="talker" name="a" namespace="b" args="c"'
     ' ros_args="d"><param name="e" value="f"/><param name="g"><param name="h" value="i"/></param>'
     '<remap from="j" to="k"/><env name="L" value="m"/></node>',
+    "push-ros-namespace": '<push-ros-namespace namespace="a"/>',
     "push_ros_namespace": '<push_ros_namespace namespace="a"/>',
     "set_env": '<set_env name="A" value="b"/>',
     "set_parameter": '<set_parameter name="a" value="b"/>',
@@ -50,8 +51,8 @@ def context(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[LaunchC
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     monkeypatch.chdir(HERE / "launch_files")
     (tmp_path / "inner.launch.xml").write_text("<launch/>")
-    with Screen() as screen:
-        yield LaunchContext(screen, tmp_path, description_in)
+    with LaunchOutput() as screen:
+        yield LaunchContext(around=Around(screen, tmp_path, description_in))
 
 
 def carried_out(context: LaunchContext, folder: Path, inner: str, kind: str = "xml") -> None:
@@ -87,12 +88,15 @@ def test_a_fault_in_any_attribute_names_the_line_of_the_file(
             carried_out(context, tmp_path, wrong)
         except BadLaunchFile as fault:
             told.append(str(fault))
-    assert told
+    assert bool(told) is (tag not in HANDED_ON)
     for text in told:
         assert text.startswith(f"[ERROR] [launch]: a.launch.xml, line {LINE}: "), text
 
 
-PARTS = re.compile(r"<(?P<tag>\w+)(?P<rest>[^>]*?)(?P<end>/?)>")
+HANDED_ON = {"shutdown"}
+"""Their attributes are never filled in, in Jazzy neither."""
+
+PARTS = re.compile(r"<(?P<tag>[\w-]+)(?P<rest>[^>]*?)(?P<end>/?)>")
 
 
 @pytest.mark.parametrize("tag", TAGS)

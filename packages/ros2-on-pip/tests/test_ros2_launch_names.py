@@ -12,12 +12,12 @@ from typing import Any
 import pytest
 
 from ros2_on_pip.launching import elsewhere, jazzy, provided
-from ros2_on_pip.launching.places import BadLaunchFile, NotReadHere, Place
+from ros2_on_pip.launching.places import BadLaunchFile, LaunchFileLine, NotReadHere
 from ros2_on_pip.launching.python_file import students_code
 from ros2_on_pip.words import NOT_READ_HERE
 
 ROOTS = ("launch", "launch_ros", "launch_xml", "launch_yaml")
-HERE = Place(Path(__file__), 1)
+HERE = LaunchFileLine(Path(__file__), 1)
 
 
 @pytest.fixture(autouse=True)

@@ -67,7 +67,11 @@ FAULTS = [
         "line 8: Required launch argument 'side' (description: 'Where.'",
     ),
     ("'left', desc", "2, desc", "line 8: default_value of 'side' must be a text or a substitution"),
-    ("['left']", "['right']", 'line 8: Argument "side" provided value "left" is not valid. Valid'),
+    (
+        "['left']",
+        "['right']",
+        "line 8: Provided default_value \"left\" of 'side' is not in provided",
+    ),
     ("Node(pack", "Node(parameters={'a': 1}, pack", "parameters must be a list of dictionaries"),
     ("Node(pack", "Node(parameters=[{'a': [1, 'b']}], pack", "line 10: parameter 'a': [1, 'b']:"),
     ("Node(pack", "Node(parameters=['no.yaml'], pack", "there is no parameter file no.yaml"),

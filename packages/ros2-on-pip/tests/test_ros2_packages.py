@@ -191,14 +191,16 @@ def test_demo_talker_and_listener(empty: Shell, whole_group: bool) -> None:
     """The first thing that every guide asks for; Ctrl-C, typed or sent, ends each with 0."""
     rename = ("--ros-args", "-r", "chatter:=news", "-r", "__node:=caller")
     with (
-        empty.start("run", "demo_nodes_py", "listener", "--ros-args", "-r", "chatter:=news") as ear,
-        empty.start("run", "demo_nodes_py", "talker", *rename) as voice,
+        empty.start(
+            "run", "demo_nodes_py", "listener", "--ros-args", "-r", "chatter:=news"
+        ) as listener,
+        empty.start("run", "demo_nodes_py", "talker", *rename) as talker,
     ):
-        voice.wait_for(r'^\[INFO\] \[\d+\.\d+\] \[caller\]: Publishing: "Hello World: 0"$')
-        ear.wait_for(r"^\[INFO\] \[\d+\.\d+\] \[listener\]: I heard: \[Hello World: \d+\]$")
-        assert voice.interrupt(whole_group) == 0
-        assert ear.interrupt(whole_group) == 0
-    assert "Traceback" not in voice.text + ear.text
+        talker.wait_for(r'^\[INFO\] \[\d+\.\d+\] \[caller\]: Publishing: "Hello World: 0"$')
+        listener.wait_for(r"^\[INFO\] \[\d+\.\d+\] \[listener\]: I heard: \[Hello World: \d+\]$")
+        assert talker.interrupt(whole_group) == 0
+        assert listener.interrupt(whole_group) == 0
+    assert "Traceback" not in talker.text + listener.text
 
 
 def test_the_tests_of_a_created_package_are_skipped_without_a_warning(

@@ -12,12 +12,12 @@ import pytest
 from published import LOOK, PUBLISHED, SHORT, SHOWN, shows
 from terminal import HERE, Shell
 
-from ros2_on_pip import discovery as eye
+from ros2_on_pip import discovery as direct_node
 from ros2_on_pip.cli import parser_for
 from ros2_on_pip.commands.doctor import parser_for as doctor_parser_for
 from ros2_on_pip.commands.hello import parser_for as hello_parser_for
 from ros2_on_pip.discovery import Settling, Sight
-from ros2_on_pip.words import Parser
+from ros2_on_pip.words import CommandParser
 
 LOOKING = {
     "action info": ("/fibonacci",),
@@ -56,7 +56,7 @@ def parser_of(words: str) -> argparse.ArgumentParser:
     return parser
 
 
-def children_of(parser: argparse.ArgumentParser) -> dict[str, Parser]:
+def children_of(parser: argparse.ArgumentParser) -> dict[str, CommandParser]:
     """The words that may follow."""
     actions = parser._actions  # argparse has no other way to look
     return next(a.choices for a in actions if isinstance(a, argparse._SubParsersAction))  # type: ignore[return-value]
@@ -152,12 +152,12 @@ def test_how_to_look_changes_nothing_in_what_is_seen(stage: Shell, verb: str) ->
 def test_spin_time_is_the_least_that_a_look_takes(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where nodes of another computer begin late, a longer look sees them too."""
     now_s = iter((100.0, 100.0, 100.0, *(100.0 + n for n in range(20))))
-    monkeypatch.setattr(eye.time, "monotonic", lambda: next(now_s))
-    monkeypatch.setattr(eye, "participants_here", lambda _: frozenset({7410}))
+    monkeypatch.setattr(direct_node.time, "monotonic", lambda: next(now_s))
+    monkeypatch.setattr(direct_node, "participants_here", lambda _: frozenset({7410}))
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     seen = Sight(frozenset({b"us"}), frozenset({b"us"}), endpoints=3, unnamed=0, nodes=1)
     settling = Settling(domain=0, at_least_s=5.0)
-    looks = [settling.after(seen) for _ in range(eye.BELIEVED_READINGS + 8)]
+    looks = [settling.after(seen) for _ in range(direct_node.BELIEVED_READINGS + 8)]
     assert True in looks
     assert next(now_s) - 100.0 > 5.0 + len(looks[looks.index(True) + 1 :])
 

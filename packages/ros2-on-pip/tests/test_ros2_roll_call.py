@@ -7,19 +7,28 @@ import signal
 import socket
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import SimpleNamespace
 
 import inside
 import pytest
 from terminal import Shell, eventually
 
-from ros2_on_pip import discovery as eye
+from ros2_on_pip import discovery as direct_node
 from ros2_on_pip import roll_call
 from ros2_on_pip.discovery import Settling, Sight
-from ros2_on_pip.participants import HERE, own_participants, participants_here
-from ros2_on_pip.roll_call import RollCall, announcement, ports_in
-from ros2_on_pip.rtps import PREFIX
+from ros2_on_pip.participants import HERE, give_room, own_participants, participants_here
+from ros2_on_pip.roll_call import (
+    MOST_TURNS_BETWEEN,
+    VENDOR,
+    HeardAnswer,
+    RollCall,
+    announcement,
+    first_question,
+    not_yet_asked,
+    ports_in,
+)
+from ros2_on_pip.rtps import PREFIX, parts_in, ports_of
 from sources import python_path
 
 US, THEM, DEAD = b"us" * 6, b"them" * 3, b"dead" * 3
@@ -40,13 +49,78 @@ def test_an_announcement_is_read_as_it_was_written() -> None:
     assert ports_in(b"RTPS" + bytes(30)) == []
 
 
+def test_who_has_not_answered_yet_is_asked_again_and_who_is_new_at_once() -> None:
+    """Of three ports one has answered, one was asked, one is new; a port of old has gone."""
+    here, asked, answered = frozenset({7410, 7412, 7414}), {7410, 7412, 7416}, {7410, 7416}
+    assert not_yet_asked(here, asked, answered, again=False) == {7414}
+    assert not_yet_asked(here, asked, answered, again=True) == {7412, 7414}
+    assert not_yet_asked(here, here, here, again=True) == frozenset()
+    assert not_yet_asked(frozenset(), asked, answered, again=True) == frozenset()
+
+
+def test_what_is_handed_on_again_comes_more_and_more_seldom() -> None:
+    """Soon at first, and never so often that what others say finds no room."""
+    answer, turns = HeardAnswer(b""), []
+    for turn in range(100):
+        if answer.due_turn <= turn:
+            turns.append(turn)
+            answer.handed_on(turn)
+    assert turns[:5] == [0, 1, 3, 7, 15]
+    assert turns[-1] - turns[-2] == MOST_TURNS_BETWEEN
+    assert len(turns) < 12
+
+
+def test_a_first_question_is_in_the_name_of_who_asks_and_counts_nothing() -> None:
+    """To both that tell of endpoints: nothing is there yet, and the count is below each other."""
+    question = first_question(announcement(US, 7410), THEM)
+    assert question[PREFIX] == US
+    meant_for, *asked = parts_in(question)
+    assert (meant_for.kind, meant_for.body) == (0x0E, THEM)
+    assert [part.kind for part in asked] == [0x06, 0x06]
+    assert [part.body for part in asked] == [
+        bytes([0, 0, number, 0xC7, 0, 0, number, 0xC2]) + bytes(16) for number in (3, 4)
+    ]
+    final = 0x02
+    assert not any(part.flags & final for part in asked)
+    of_another_vendor = announcement(US, 7410).replace(VENDOR, b"\x01\x10", 1)
+    assert first_question(of_another_vendor, THEM) == b""
+
+
+def test_our_own_participant_gets_room_for_all_that_come_at_once() -> None:
+    """More than the kernel gives by itself; another domain's socket is left as it is."""
+    with (
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as ours,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other,
+    ):
+        domain = bound_on_a_free_domain(ours)
+        other.bind((HERE, 0))
+        before = room_of(other)
+        give_room(domain)
+        assert room_of(ours) > before
+        assert room_of(other) == before
+
+
+def bound_on_a_free_domain(receiver: socket.socket) -> int:
+    """Bind as a participant does, where nobody is."""
+    for domain in range(90, 60, -1):
+        if not participants_here(domain):
+            receiver.bind((HERE, ports_of(domain)[10]))
+            return domain
+    raise AssertionError("no domain is free")
+
+
+def room_of(receiver: socket.socket) -> int:
+    """How many bytes the kernel keeps for it."""
+    return receiver.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF)
+
+
 @contextmanager
 def participant(name: bytes) -> Iterator[tuple[socket.socket, int]]:
     """A socket that answers as one; `name` is its."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as ear:
-        ear.bind((HERE, 0))
-        ear.settimeout(60)
-        yield ear, ear.getsockname()[1]
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
+        receiver.bind((HERE, 0))
+        receiver.settimeout(60)
+        yield receiver, receiver.getsockname()[1]
 
 
 def test_an_answer_is_handed_on_until_our_own_participant_knows(
@@ -57,16 +131,39 @@ def test_an_answer_is_handed_on_until_our_own_participant_knows(
         monkeypatch.setattr(roll_call, "participants_here", lambda _: frozenset({own_port, port}))
         monkeypatch.setattr(roll_call, "own_participants", lambda _: frozenset({own_port}))
         with RollCall(domain=0) as roll:
-            for ear, name, at in ((theirs, THEM, port), (ours, US, own_port)):
-                asked, asker = ear.recvfrom(65536)
+            for receiver, name, at in ((theirs, THEM, port), (ours, US, own_port)):
+                asked, asker = receiver.recvfrom(65536)
                 assert ports_in(asked) == [asker[1]]
-                ear.sendto(announcement(name, at), asker)
+                receiver.sendto(announcement(name, at), asker)
             assert roll.named({1}) is None
             eventually(lambda: roll.named({own_port, port}) == {US, THEM})
             for _ in range(2):  # the first may come too early
                 while ours.recv(65536)[PREFIX] != THEM:
                     pass
+            # Whom it was told of, it asks.
+            while theirs.recv(65536) != first_question(announcement(US, own_port), THEM):
+                pass
             roll.knows(frozenset({US, THEM}))
+
+
+def test_who_does_not_hurry_asks_nobody_for_endpoints(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each answer is handed on again and again; the first question is left to the middleware."""
+    with participant(US) as (ours, own_port), participant(THEM) as (theirs, port):
+        monkeypatch.setattr(roll_call, "participants_here", lambda _: frozenset({own_port, port}))
+        monkeypatch.setattr(roll_call, "own_participants", lambda _: frozenset({own_port}))
+        with RollCall(domain=0, hurries=False):
+            for receiver, name, at in ((theirs, THEM, port), (ours, US, own_port)):
+                _, asker = receiver.recvfrom(65536)
+                receiver.sendto(announcement(name, at), asker)
+            for _ in range(4):
+                while ours.recv(65536)[PREFIX] != THEM:
+                    pass
+        theirs.setblocking(False)
+        asked = []
+        with suppress(BlockingIOError):
+            while True:
+                asked.append(theirs.recv(65536))
+    assert first_question(announcement(US, own_port), THEM) not in asked
 
 
 def test_our_own_port_is_known(empty: Shell) -> None:
@@ -79,7 +176,7 @@ def test_our_own_port_is_known(empty: Shell) -> None:
         talker.wait_for("Publishing")
         os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
         assert own_participants(domain) == frozenset()
-        with eye.Eye():
+        with direct_node.DirectNode():
             assert len(own_participants(domain)) == 1
             assert own_participants(domain) < participants_here(domain)
 
@@ -93,18 +190,22 @@ def test_half_a_service_is_not_all() -> None:
     server = {"rq/lightRequest": ([], of(US)), "rr/lightReply": (of(US), [])}
     client = {"rq/lightRequest": (of(THEM), of(US)), "rr/lightReply": (of(US), of(THEM))}
     half = {"rq/lightRequest": (of(THEM), of(US)), "rr/lightReply": (of(US), [])}
-    assert eye.with_half_a_service(server) == eye.with_half_a_service(client) == frozenset()
-    assert eye.with_half_a_service(half) == {THEM}
-    assert eye.with_half_a_service({"rq/lightRequest": ([], of(US))}) == {US}
-    assert eye.with_half_a_service({"rt/light": (of(US), [])}) == frozenset()
+    assert (
+        direct_node.with_half_a_service(server)
+        == direct_node.with_half_a_service(client)
+        == frozenset()
+    )
+    assert direct_node.with_half_a_service(half) == {THEM}
+    assert direct_node.with_half_a_service({"rq/lightRequest": ([], of(US))}) == {US}
+    assert direct_node.with_half_a_service({"rt/light": (of(US), [])}) == frozenset()
     everybody = frozenset({US, THEM})
     assert not Sight(everybody, everybody, 3, 0, 2, half_known=frozenset({THEM})).complete(2)
 
 
 def test_who_has_ended_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
     """It was killed while it introduced its nodes: half of it is known, and no more will come."""
-    monkeypatch.setattr(eye, "participants_here", lambda _: frozenset({7410, 7412}))
-    monkeypatch.setattr(eye, "QUIET_S", 0.0)
+    monkeypatch.setattr(direct_node, "participants_here", lambda _: frozenset({7410, 7412}))
+    monkeypatch.setattr(direct_node, "QUIET_S", 0.0)
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     roll = RollCall(domain=0)
     roll._answered = {7410: US, 7412: THEM}
@@ -113,7 +214,7 @@ def test_who_has_ended_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> Non
         everybody, frozenset({US, THEM}), 5, unnamed=2, nodes=2, half_known=frozenset({DEAD})
     )
     settling = Settling(0, roll)
-    assert any(settling.after(with_dead) for _ in range(eye.BELIEVED_READINGS + 1))
+    assert any(settling.after(with_dead) for _ in range(direct_node.BELIEVED_READINGS + 1))
     without_them = Sight(
         everybody, frozenset({US}), 5, unnamed=2, nodes=2, half_known=frozenset({THEM})
     )

@@ -234,8 +234,8 @@ def test_what_a_publisher_keeps_for_those_who_come_late(
         pub.wait_for("publishing #5")
         assert "publishing #4" not in pub.text
         every = ("--qos-durability", "transient_local", "--qos-reliability", "reliable")
-        ear = ("topic", "echo", "/late", "--field", "node", "-i", "--qos-depth", "10", *every)
-        with empty.start(*ear) as late:
+        echo = ("topic", "echo", "/late", "--field", "node", "-i", "--qos-depth", "10", *every)
+        with empty.start(*echo) as late:
             late.wait_for(f"'publication_sequence_number': {heard[-1]},")
             numbers = re.findall(r"'publication_sequence_number': (\d+)", late.text)
     assert numbers == heard

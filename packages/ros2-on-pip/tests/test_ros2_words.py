@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from terminal import Shell, ours
 
-from ros2_on_pip import discovery as eye
+from ros2_on_pip import discovery as direct_node
 from ros2_on_pip import surroundings
 from ros2_on_pip.cli import COMMANDS
 from ros2_on_pip.discovery import Sight
@@ -174,10 +174,10 @@ def sight(*programs: bytes) -> Sight:
 def test_one_reading_of_the_kernels_table_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
     """It lacks a port now and then; the look goes on until the other program has spoken."""
     readings = itertools.cycle([frozenset({7410, 7412}), frozenset({7410})])
-    monkeypatch.setattr(eye, "participants_here", lambda _: next(readings))
-    monkeypatch.setattr(eye, "QUIET_S", 0.0)
+    monkeypatch.setattr(direct_node, "participants_here", lambda _: next(readings))
+    monkeypatch.setattr(direct_node, "QUIET_S", 0.0)
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    settling = eye.Settling(domain=0)
+    settling = direct_node.Settling(domain=0)
     assert not any(settling.after(sight(b"us")) for _ in range(50))
     assert any(settling.after(sight(b"us", b"them")) for _ in range(50))
 
@@ -185,16 +185,16 @@ def test_one_reading_of_the_kernels_table_is_not_believed(monkeypatch: pytest.Mo
 def test_where_we_are_late_the_others_are_given_longer(monkeypatch: pytest.MonkeyPatch) -> None:
     """One of them may have to wait for a processor between its first topic and its second."""
     now_s = [100.0]
-    monkeypatch.setattr(eye.time, "monotonic", lambda: now_s[0])
-    monkeypatch.setattr(eye, "participants_here", lambda _: frozenset({7410}))
+    monkeypatch.setattr(direct_node.time, "monotonic", lambda: now_s[0])
+    monkeypatch.setattr(direct_node, "participants_here", lambda _: frozenset({7410}))
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
 
     def quiet_s(late_s: float) -> float:
         def sleep(for_s: float) -> None:
             now_s[0] += for_s + late_s
 
-        monkeypatch.setattr(eye.time, "sleep", sleep)
-        settling, began_s = eye.Settling(domain=0), now_s[0]
+        monkeypatch.setattr(direct_node.time, "sleep", sleep)
+        settling, began_s = direct_node.Settling(domain=0), now_s[0]
         while not settling.after(sight(b"us")):
             settling.wait()
         return now_s[0] - began_s
@@ -207,10 +207,10 @@ def test_a_program_that_never_answers_is_told(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The look ends, and says that it may lack something."""
-    monkeypatch.setattr(eye, "participants_here", lambda _: frozenset({7410, 7412}))
-    settling = eye.Settling(domain=0)
-    looks = [settling.after(sight(b"us")) for _ in range(eye.SILENT_LOOKS)]
-    assert looks.index(True) == eye.SILENT_LOOKS - 1
+    monkeypatch.setattr(direct_node, "participants_here", lambda _: frozenset({7410, 7412}))
+    settling = direct_node.Settling(domain=0)
+    looks = [settling.after(sight(b"us")) for _ in range(direct_node.SILENT_LOOKS)]
+    assert looks.index(True) == direct_node.SILENT_LOOKS - 1
     assert "1 program on this computer did not answer" in capsys.readouterr().err
 
 

@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator
 import pytest
 from test_changes_questions import verdict
 
-from roslings_changes.asking import Round, answered, ask_all, asked, listed
-from roslings_changes.candidates import Change
+from roslings_changes.asking import ExplainRound, answered, ask_all, listed, question_lines
+from roslings_changes.candidates import CodeChange
 from roslings_changes.questions import Question
 
 BEFORE = "class A:\n    def b(self):\n        self.create_timer(0.5, self.c)\n"
-CHANGE = Change("number", "chatter/talker.py", 3, BEFORE, BEFORE.replace("0.5", "0.75"))
+CHANGE = CodeChange("number", "chatter/talker.py", 3, BEFORE, BEFORE.replace("0.5", "0.75"))
 
 
 def question(*failed: str) -> Question:
@@ -35,7 +35,7 @@ def typing(*lines: str) -> Callable[[str], str]:
 
 def test_a_change_is_shown_with_file_and_line_and_moved_to_the_left() -> None:
     """As a difference is written."""
-    assert asked(2, question("rate")) == [
+    assert question_lines(2, question("rate")) == [
         "2 of 3   chatter/talker.py, line 3",
         "",
         "    - self.create_timer(0.5, self.c)",
@@ -55,7 +55,7 @@ def test_a_check_is_named_by_number_or_name(typed: str) -> None:
     """Right is the first one that fails."""
     said: list[str] = []
     found = ask_all([question("rate", "ends")], typing(typed, "it is slower"), said.append)
-    assert found == Round(asked=1, right=1)
+    assert found == ExplainRound(asked=1, right=1)
     assert said[-1].startswith("Right. The first check that fails is rate: About rate.")
 
 
@@ -63,7 +63,7 @@ def test_another_one_is_told_and_counted() -> None:
     """With what the grader says."""
     said: list[str] = []
     found = ask_all([question("text"), question("rate")], typing("ends", "", "2", ""), said.append)
-    assert found == Round(asked=2, right=1)
+    assert found == ExplainRound(asked=2, right=1)
     assert "Not ends. The first check that fails is text" in said[1]
 
 

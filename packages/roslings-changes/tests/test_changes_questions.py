@@ -11,7 +11,7 @@ import pytest
 
 from roslings.course import Lab, lab
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
-from roslings_changes.candidates import Change, candidates
+from roslings_changes.candidates import CodeChange, candidates
 from roslings_changes.questions import MOST_GRADED, PLAIN, WANTED, drawn, graded, questions
 
 CHECKS = ("builds", "rate", "text", "ends")
@@ -138,5 +138,5 @@ def test_where_nothing_is_caught_it_ends(topics: Lab, package: Path) -> None:
 
 def test_a_change_names_its_line() -> None:
     """The one that differs first."""
-    change = Change("number", "a/b.py", 2, "x = 1\ny = 2\n", "x = 1\ny = 3\n")
+    change = CodeChange("number", "a/b.py", 2, "x = 1\ny = 2\n", "x = 1\ny = 3\n")
     assert change.changed == "-y = 2\n+y = 3" and change.place == ("a/b.py", 2)

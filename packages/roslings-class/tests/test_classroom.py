@@ -20,7 +20,7 @@ import pytest
 from ros2_on_pip.network_cards import cards
 from roslings import course
 from roslings_class import classroom
-from roslings_class.classroom import LOOPBACK, CannotServe, Offer, addresses, offer, serving, told
+from roslings_class.classroom import LOOPBACK, CannotServe, Handout, addresses, offer, serving, told
 
 RCLPY = "ros_rclpy-7.1.6-{tag}-manylinux_2_28_x86_64.whl"
 
@@ -43,7 +43,7 @@ def wheel(folder: Path, name: str, content: str = "") -> Path:
 
 
 @pytest.fixture
-def room(tmp_path: Path) -> Offer:
+def room(tmp_path: Path) -> Handout:
     """An edition, wheels of two Pythons, and a site with files that are nobody's business."""
     edition, wheels, site = tmp_path / "edition", tmp_path / "wheels", tmp_path / "site"
     for folder in (edition / "labs", wheels, site / "labs", site / ".git"):
@@ -64,7 +64,7 @@ def room(tmp_path: Path) -> Offer:
 
 
 @pytest.fixture
-def address(room: Offer) -> Iterator[str]:
+def address(room: Handout) -> Iterator[str]:
     """Where it can be had, while the test runs."""
     with serving(room, LOOPBACK, 0) as found:
         assert len(found) == 1
@@ -162,7 +162,7 @@ def test_nothing_can_be_written(address: str) -> None:
     assert status(address, "/site/labs/") == 200
 
 
-def test_thirty_at_once(address: str, room: Offer) -> None:
+def test_thirty_at_once(address: str, room: Handout) -> None:
     """All connect before the first is answered; one goes away in the middle."""
     host, port = address.removeprefix("http://").split(":")
     gone = socket.create_connection((host, int(port)))
@@ -177,13 +177,13 @@ def test_thirty_at_once(address: str, room: Offer) -> None:
     assert sizes == {room.files[classroom.ARCHIVE].stat().st_size}
 
 
-def test_what_is_there_is_told(room: Offer) -> None:
+def test_what_is_there_is_told(room: Handout) -> None:
     """And what to type for what is not."""
     full = told(room, ["http://10.0.0.5:8000", "http://127.0.0.1:8000"])
     assert "The course can be had at http://10.0.0.5:8000\n  or        http://127" in full
     assert "with ROS for Python 3.10, 3.12" in full
     assert "site      yes" in full
-    bare = Offer(room.files, {"roslings-0.1.0-py3-none-any.whl": Path("x")})
+    bare = Handout(room.files, {"roslings-0.1.0-py3-none-any.whl": Path("x")})
     poor = told(bare, ["http://10.0.0.5:8000"])
     assert "./roslings wheels DIR" in poor
     assert "./roslings site" in poor
@@ -199,7 +199,7 @@ def test_addresses_are_those_of_the_cards() -> None:
     assert addresses("192.0.2.7", 80) == ["http://192.0.2.7:80"]
 
 
-def test_what_cannot_be_handed_out_is_told(tmp_path: Path, room: Offer) -> None:
+def test_what_cannot_be_handed_out_is_told(tmp_path: Path, room: Handout) -> None:
     """Before anything is made, with what to type."""
     with pytest.raises(CannotServe, match=r"\./roslings wheels"):
         classroom.made_in(tmp_path / "new", tmp_path / "empty", None)

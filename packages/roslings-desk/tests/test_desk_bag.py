@@ -11,7 +11,7 @@ from desk_program import PATIENCE_S, Desk, Nodes, desk, until
 
 from ros2_on_pip.domain_lease import leased_domain
 from ros2_on_pip.rosbag2.metadata import Topic
-from ros2_on_pip.rosbag2.writing import BagWriter, Plan
+from ros2_on_pip.rosbag2.writing import BagWriter, BagWriterOptions
 from skips import imported
 
 expect = imported("playwright.sync_api").expect
@@ -26,7 +26,7 @@ def write(folder: Path, topics: dict[str, str], messages: Any) -> Path:
     """A bag of these topics, name to type, and of messages (topic, ns since 1970, content)."""
     from rclpy.serialization import serialize_message
 
-    writer = BagWriter(folder, Plan())
+    writer = BagWriter(folder, BagWriterOptions())
     for name, kind in topics.items():
         writer.add_topic(Topic(name, kind))
     for topic, time_ns, message in messages:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from desk_program import Desk, Nodes
 
-from ros2_on_pip.graph.seen import PUBLISHER, SUBSCRIPTION, End, GraphNow, misfits
+from ros2_on_pip.graph.seen import PUBLISHER, SUBSCRIPTION, EndpointNow, GraphNow, misfits
 from ros2_on_pip.graph.shape import shape_of
 from roslings_desk.tabs.graph import MOST_DRAWN, around
 from skips import imported
@@ -32,7 +32,7 @@ def qos(**policies: str) -> Any:
 
 def graph(*ends: tuple[str, str, str, str, Any]) -> GraphNow:
     """One of these endpoints."""
-    return GraphNow(sorted({end[1] for end in ends}), [End(*end) for end in ends])
+    return GraphNow(sorted({end[1] for end in ends}), [EndpointNow(*end) for end in ends])
 
 
 def test_what_does_not_fit_is_told_once_with_its_reason() -> None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from ros2_on_pip.domain_lease import leased_domain
-from roslings_desk.hub import KEPT_BYTES, KEPT_MESSAGES, Heard, Hub
+from roslings_desk.hub import KEPT_BYTES, KEPT_MESSAGES, Hub, SharedSubscription
 from skips import needs
 
 pytestmark = needs("module rclpy")
@@ -19,6 +19,9 @@ def hub(monkeypatch: pytest.MonkeyPatch) -> Iterator[Hub]:
     with leased_domain() as domain:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
         monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        # Whoever imports rclpy in this process names a middleware; where its files lie is set by
+        # the command, which this test does not run.
+        monkeypatch.delenv("RMW_IMPLEMENTATION", raising=False)
         with Hub() as found:
             yield found
 
@@ -53,7 +56,7 @@ def test_two_pages_share_a_subscription_and_the_last_one_ends_it(hub: Hub) -> No
 @pytest.mark.parametrize(("size_b", "kept"), [(10, KEPT_MESSAGES), (KEPT_BYTES // 4, 4)])
 def test_only_so_many_messages_and_bytes_are_kept(size_b: int, kept: int) -> None:
     """All are counted; the newest is always there, and its number tells what is missing."""
-    heard = Heard("/big", "std_msgs/msg/String", None)
+    heard = SharedSubscription("/big", "std_msgs/msg/String", None)
     for _ in range(KEPT_MESSAGES + 5):
         heard.add(bytes(size_b))
     assert heard.count == KEPT_MESSAGES + 5
@@ -63,7 +66,7 @@ def test_only_so_many_messages_and_bytes_are_kept(size_b: int, kept: int) -> Non
 
 def test_one_message_larger_than_all_that_is_kept_is_there() -> None:
     """Nobody else's are."""
-    heard = Heard("/big", "std_msgs/msg/String", None)
+    heard = SharedSubscription("/big", "std_msgs/msg/String", None)
     heard.add(b"small")
     heard.add(bytes(KEPT_BYTES + 1))
     assert [each.number for each in heard.after(0)] == [2]

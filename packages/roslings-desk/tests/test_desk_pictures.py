@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from PIL import Image as Decoded
 
-from roslings_desk.pictures import BadPicture, picture_of
+from roslings_desk.pictures import UnshowableImage, picture_of
 from skips import skip_without
 
 skip_without("module rclpy")
@@ -81,7 +81,7 @@ def test_its_brightness_is_the_mean() -> None:
 )
 def test_a_wrong_picture_is_told(message: Any, said: str) -> None:
     """With the numbers that do not fit."""
-    with pytest.raises(BadPicture, match=said):
+    with pytest.raises(UnshowableImage, match=said):
         picture_of(message())
 
 

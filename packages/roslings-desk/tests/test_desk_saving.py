@@ -14,7 +14,7 @@ from PIL import Image as Picture
 from ros2_on_pip.domain_lease import leased_domain
 from ros2_on_pip.rosbag2.reading import opened as opened_bag
 from roslings_desk import saving
-from roslings_desk.hub import Heard
+from roslings_desk.hub import SharedSubscription
 from skips import imported
 
 expect = imported("playwright.sync_api").expect
@@ -107,12 +107,12 @@ def shot(drawn: Any, number: int) -> bytes:
     return bytes(drawn.convert("RGB").tobytes())
 
 
-def heard_poses(places: list[float]) -> Heard:
+def heard_poses(places: list[float]) -> SharedSubscription:
     """What a subscription to /odom has kept."""
     from nav_msgs.msg import Odometry
     from rclpy.serialization import serialize_message
 
-    heard = Heard("/odom", "nav_msgs/msg/Odometry", Odometry)
+    heard = SharedSubscription("/odom", "nav_msgs/msg/Odometry", Odometry)
     for x_m in places:
         said = Odometry()
         said.pose.pose.position.x = x_m

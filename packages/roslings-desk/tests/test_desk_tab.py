@@ -22,7 +22,9 @@ def written(folder: Path) -> Path:
     """A folder of packages with the class of the docstring, and the line that offers it."""
     assert tab.__doc__
     code = tab.__doc__.partition("\n\n")[2].partition("\n\nIt is offered")[0]
-    needs = "from roslings_desk.controls import Text\nfrom roslings_desk.tab import OpenTab\n\n\n"
+    needs = (
+        "from roslings_desk.controls import PageText\nfrom roslings_desk.tab import OpenTab\n\n\n"
+    )
     (folder / "my_package").mkdir(parents=True)
     (folder / "my_package/__init__.py").touch()
     (folder / "my_package/battery.py").write_text(needs + dedent(code) + "\n", "utf-8")

@@ -249,6 +249,19 @@ def test_a_lab_may_need_more_groups_than_its_command(ready: CourseCopy) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("option", ["--kept", "--prices"])
+def test_proofs_of_no_lab_in_particular_need_what_all_need(ready: CourseCopy, option: str) -> None:
+    """Drills say it in their cards, too."""
+    drill = "days/01-first/drills/01_wave/drill.yaml"
+    for card, groups in {"labs/arm/card.yaml": "graph", drill: "ros2"}.items():
+        (ready.root / card).parent.mkdir(parents=True)
+        (ready.root / card).write_text(f"groups: [{groups}]\n")
+    one = ready.run("prove", "arm", option)
+    assert one.seen["has"] == ["ros_x", "col_x", "check_x", "draw_x"]
+    assert ready.run("prove", option).seen["has"] == [*one.seen["has"], "bag_x"]
+
+
+@pytest.mark.slow
 def test_programs_find_what_stands_in_for_packages_of_ros(ready: CourseCopy) -> None:
     """Last on the path: a real package of the same name, of a sourced ROS, goes before it."""
     (seen,) = ready.venv.glob("lib/python3.*/site-packages/roslings.pth")

@@ -10,11 +10,11 @@ from types import SimpleNamespace
 import pytest
 
 from roslings_launcher import installed
-from roslings_launcher.errors import Trouble
-from roslings_launcher.machine import Machine
+from roslings_launcher.errors import LauncherTrouble
+from roslings_launcher.machine import WheelPlatform
 from roslings_launcher.readiness import readiness
 
-FITS = Machine("Linux", "x86_64", 64, (2, 39), (3, 12), cpython=True)
+FITS = WheelPlatform("Linux", "x86_64", 64, (2, 39), (3, 12), cpython=True)
 MAC = replace(FITS, system="Darwin", architecture="arm64", glibc=())
 WINDOWS = replace(FITS, system="Windows", architecture="AMD64", glibc=())
 PI = replace(FITS, architecture="aarch64")
@@ -31,7 +31,7 @@ def no_ros(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("ROSLINGS_COURSE", raising=False)
 
 
-def lines(machine: Machine, folder: Path, **variables: str) -> str:
+def lines(machine: WheelPlatform, folder: Path, **variables: str) -> str:
     """What `new` says of it, where the system's files are those in `folder`."""
     seen = readiness(machine, {**PC_OF_CLASS, **variables}, folder / "new/course", root=folder)
     return "\n".join(map(str, seen))
@@ -48,7 +48,7 @@ def lines(machine: Machine, folder: Path, **variables: str) -> str:
     ],
 )
 def test_a_machine_without_wheels_hears_what_to_do(
-    machine: Machine, steps: list[str], tmp_path: Path
+    machine: WheelPlatform, steps: list[str], tmp_path: Path
 ) -> None:
     """After the course was unpacked, which works everywhere."""
     told = lines(machine, tmp_path)
@@ -121,6 +121,6 @@ def test_the_nearest_course_is_taken(tmp_path: Path) -> None:
 
 def test_a_clone_carries_no_course_of_its_own(tmp_path: Path) -> None:
     """Only a wheel does; it is said, and nothing is left."""
-    with pytest.raises(Trouble, match="carries no course"):
+    with pytest.raises(LauncherTrouble, match="carries no course"):
         installed.unpack(tmp_path / "new")
     assert list(tmp_path.iterdir()) == []

@@ -17,11 +17,11 @@ from roslings_launcher.built_interfaces import (
     digest_of_file,
     origin_of,
 )
-from roslings_launcher.errors import Trouble
+from roslings_launcher.errors import LauncherTrouble
 from roslings_launcher.interface_build import GENERATORS_CONFIG
 from roslings_launcher.interfaces import Interfaces
 from roslings_launcher.machine import this_machine
-from roslings_launcher.place import Place
+from roslings_launcher.place import CoursePlace
 from roslings_launcher.virtual import Virtual
 from skips import imported
 
@@ -162,7 +162,7 @@ def interfaces_of(root: Path) -> Interfaces:
     python.write_text(f'#!/bin/sh\nexec {sys.executable} "$@"\n')
     python.chmod(0o755)
     (root / "constraints.txt").write_text("")
-    return Interfaces(Place(root), Virtual(environment), sourced=False)
+    return Interfaces(CoursePlace(root), Virtual(environment), sourced=False)
 
 
 def test_they_stand_as_long_as_nothing_changes(tmp_path: Path) -> None:
@@ -262,11 +262,11 @@ def test_a_sourced_ros_without_generators_is_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A small apt install may lack them."""
-    interfaces = Interfaces(Place(tmp_path), Virtual(tmp_path / ".venv-apt"), sourced=True)
+    interfaces = Interfaces(CoursePlace(tmp_path), Virtual(tmp_path / ".venv-apt"), sourced=True)
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path / "jazzy"))
     monkeypatch.setenv("CC", sys.executable)  # any program is enough here
     monkeypatch.setenv("CXX", sys.executable)
-    with pytest.raises(Trouble, match="rosidl-default-generators"):
+    with pytest.raises(LauncherTrouble, match="rosidl-default-generators"):
         interfaces.build.require_compiler()
     (tmp_path / "jazzy/share/rosidl_default_generators").mkdir(parents=True)
     interfaces.build.require_compiler()

@@ -19,6 +19,7 @@ from packaging.utils import canonicalize_name
 
 from roslings_launcher import constraints, groups, sizes
 from roslings_launcher.installing import TOOLS
+from script_groups import groups_of_commands
 from skips import skip_without
 
 PYPROJECT = REAL / "pyproject.toml"
@@ -154,8 +155,7 @@ def test_check_downloads_at_most_80_mb(python: tuple[int, int]) -> None:
 
 def test_every_group_of_the_scripts_table_exists() -> None:
     """The table in the script `./roslings`."""
-    table = re.findall(r"^ .*\becho ([\w -]+) ;;$", (REAL / "roslings").read_text(), re.MULTILINE)
-    named = {group for line in table for group in line.split()}
+    named = {group for needed in groups_of_commands().values() for group in needed}
     assert named
     assert named <= set(groups.names(PYPROJECT))
 
@@ -163,17 +163,8 @@ def test_every_group_of_the_scripts_table_exists() -> None:
 @pytest.mark.parametrize("command", ["lab", "site", "desk", "rover", "graph", "ros2", "check"])
 def test_what_a_lesson_types_is_installed_for_the_tests(command: str) -> None:
     """Else a lesson's output begins with a download, and is not what the lesson holds."""
-    assert groups_of(command) <= groups_of("test")
-
-
-def groups_of(command: str) -> set[str]:
-    """As the script has them for a command without words."""
-    (row,) = re.findall(
-        rf"^ +(?:[\w-]+ \| )*{command}(?: \| [\w-]+)*\) *(?:\n *)?echo ([\w -]+) ;;$",
-        (REAL / "roslings").read_text(),
-        re.MULTILINE,
-    )
-    return set(row.split())
+    table = groups_of_commands()
+    assert table[command] <= table["test"]
 
 
 def test_the_script_is_plain_sh() -> None:

@@ -12,12 +12,12 @@ import pytest
 from course_copy import CourseCopy
 from pythons_here import BASE
 
-from roslings_launcher.errors import Trouble
-from roslings_launcher.machine import Machine, require_wheels, this_machine
+from roslings_launcher.errors import LauncherTrouble
+from roslings_launcher.machine import WheelPlatform, require_wheels, this_machine
 from roslings_launcher.place import require_usable
 from skips import skip_without
 
-FITS = Machine("Linux", "x86_64", 64, (2, 39), (3, 12), cpython=True)
+FITS = WheelPlatform("Linux", "x86_64", 64, (2, 39), (3, 12), cpython=True)
 
 UNFIT = [
     (replace(FITS, architecture="aarch64"), "aarch64", "Ubuntu 24.04"),
@@ -34,10 +34,10 @@ UNFIT = [
 
 @pytest.mark.parametrize(("machine", "reason", "step"), UNFIT, ids=lambda case: str(case)[:30])
 def test_a_machine_without_wheels_is_told_the_other_way(
-    machine: Machine, reason: str, step: str
+    machine: WheelPlatform, reason: str, step: str
 ) -> None:
     """What does not fit, and which way to take instead."""
-    with pytest.raises(Trouble) as trouble:
+    with pytest.raises(LauncherTrouble) as trouble:
         require_wheels(machine)
     assert reason in trouble.value.what
     assert any(step in text for text in trouble.value.steps)

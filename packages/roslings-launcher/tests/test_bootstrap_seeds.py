@@ -12,7 +12,7 @@ from package_index import PackageIndex
 from pythons_here import BASE
 
 from roslings_launcher import seeds
-from roslings_launcher.errors import Trouble
+from roslings_launcher.errors import LauncherTrouble
 from skips import skip_without
 
 pytestmark = pytest.mark.slow
@@ -77,7 +77,7 @@ def test_a_wheel_that_is_not_as_promised_is_refused(
     name = next(index.folder.glob("pip-*.whl")).name
     index.traffic.cuts[name] = 100
     monkeypatch.setenv("PIP_INDEX_URL", index.address)
-    with pytest.raises(Trouble):
+    with pytest.raises(LauncherTrouble):
         seeds.find_seed(bare, tmp_path / "a")
 
 
@@ -96,7 +96,7 @@ def test_another_python_lends_its_pip(
 @pytest.mark.usefixtures("alone")
 def test_without_any_pip_the_next_step_is_said(bare: str, tmp_path: Path) -> None:
     """Both with sudo and without."""
-    with pytest.raises(Trouble) as trouble:
+    with pytest.raises(LauncherTrouble) as trouble:
         seeds.find_seed(bare, tmp_path / "scratch")
     assert "apt install python3-venv" in trouble.value.steps[0]
     assert "ROSLINGS_WHEELS" in trouble.value.steps[1]

@@ -17,7 +17,7 @@ from typing import Any
 
 from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import lab
-from roslings_my_rover.parts import Part
+from roslings_my_rover.parts import RoverPart
 from sources import python_path
 
 PATIENCE_S = 120.0
@@ -36,7 +36,7 @@ def until(
     return found
 
 
-def put(workspace: Path, part: Part, mutant: str = "") -> None:
+def put(workspace: Path, part: RoverPart, mutant: str = "") -> None:
     """The solution of the part's lab as the student's package, or a wrong one."""
     own = lab(part.lab)
     package = workspace / "src" / own.outline.package

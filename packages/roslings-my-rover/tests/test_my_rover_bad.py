@@ -22,7 +22,7 @@ from test_my_rover_wins import carries, workspace
 
 from ros2_on_pip.domain_lease import leased_domain
 from roslings.course import lab
-from roslings_my_rover.parts import CABLE, GUARD, LIMITER, PACE, PARTS, SONAR, VOICE, Part
+from roslings_my_rover.parts import CABLE, GUARD, LIMITER, PACE, PARTS, SONAR, VOICE, RoverPart
 
 __all__ = ["workspace"]
 pytestmark = pytest.mark.slow
@@ -85,7 +85,7 @@ STRAY = """
     ids=lambda parts: "-".join(part.name for part in parts),
 )
 def test_a_part_that_speaks_on_anothers_link_is_held_off(
-    workspace: Path, parts: tuple[Part, ...]
+    workspace: Path, parts: tuple[RoverPart, ...]
 ) -> None:
     """It is named, and the wheels never follow it, alone or beside a real command."""
     from geometry_msgs.msg import Twist

@@ -17,7 +17,7 @@ from roslings.workspace.progress import record
 from roslings_my_rover.chosen import CannotBorrow, chosen, told
 from roslings_my_rover.commands import my_rover
 from roslings_my_rover.launch_file import DEVICE, PORT, launch_file
-from roslings_my_rover.parts import PARTS, Part, day_number, labs_of_parts
+from roslings_my_rover.parts import PARTS, RoverPart, day_number, labs_of_parts
 from roslings_my_rover.wiring import wired
 
 
@@ -186,7 +186,7 @@ def test_the_page_tells_each_part() -> None:
 
 
 @pytest.mark.parametrize("part", PARTS, ids=lambda part: part.name)
-def test_each_task_ends_on_the_rover(part: Part) -> None:
+def test_each_task_ends_on_the_rover(part: RoverPart) -> None:
     """With a command that there is."""
     text = lab(part.lab).task.read_text("utf-8").rpartition("## On your rover")[2]
     typed = re.findall(r"^\./roslings my-rover(.*)$", text, re.M)

@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
+import io
 import math
 
 import pytest
 
-from roslings.course import lab, root
+from roslings.capabilities.launch.contract import LaunchWords
+from roslings.capabilities.parameters.contract import ParameterWords
+from roslings.course import lab, root, written
 from roslings_my_rover.parts import LIMITER
 from roslings_my_rover.race import FINISH_M, FULL_M_S, LANES, LIGHTS, START_M, Race
 from roslings_my_rover.race_nodes import ALLOWED, TAG, WANTED, RaceNode
 from roslings_my_rover.race_running import LAUNCH_FILE
-from roslings_my_rover.race_view import SLOWER, RaceWindow, below, beside, cells, where
+from roslings_my_rover.race_view import (
+    SLOWER,
+    RaceLines,
+    RaceWindow,
+    below,
+    beside,
+    cells,
+    where,
+)
 from roslings_rover.models.differential_drive import Motion, Pose
 from roslings_rover.models.world import default_world
 from roslings_rover.rover.text_map import ASCII
@@ -118,6 +129,20 @@ def test_the_window_shows_both_in_their_colours() -> None:
     assert window.closed
 
 
+def test_a_pipe_is_told_what_is_news() -> None:
+    """A line for who has moved, and none again for who stands where it stood."""
+    node, out = RaceNode(driven(Race(), {"red": 0.6, "blue": 0.4}, 6.0)), io.StringIO()
+    lines = RaceLines(out)
+    lines.show(node)
+    begun = out.getvalue()
+    assert all(text in begun for text in (node.told, *map(where, node.rovers)))
+    lines.show(node)
+    assert out.getvalue() == begun
+    node.rovers[0].rover.step(1.0)
+    lines.show(node)
+    assert out.getvalue().removeprefix(begun).splitlines() == [where(node.rovers[0])]
+
+
 @pytest.mark.parametrize("for_s", [0, 6, 60])
 def test_its_words_fit(for_s: float) -> None:
     """Beside the map 32 columns; the lines of a pipe tell each rover."""
@@ -131,14 +156,14 @@ def test_its_words_fit(for_s: float) -> None:
 def test_the_names_are_those_of_the_card() -> None:
     """A card that is changed for a new term changes the race, or this test."""
     card = lab(LIMITER.lab).card
-    launch = card.launch  # type: ignore[attr-defined]  # a capability's word
+    launch = written(card.of(LaunchWords).launch, LIMITER.lab)
     assert launch.name == LAUNCH_FILE
     assert [each.namespace for each in launch.namespaces] == [f"/{lane.colour}" for lane in LANES]
     limiter, beacon = card.node("speed_limiter"), card.node("beacon")
     assert [each.topic for each in limiter.subscribes] == [f"/{WANTED}"]
     assert [each.topic for each in limiter.publishes] == [f"/{ALLOWED}"]
     assert [each.topic for each in beacon.publishes] == [f"/{TAG}"]
-    assert "careful" in {each.name for each in limiter.parameters} and " careful " in SLOWER
+    assert limiter.of(ParameterWords).parameter("careful") and " careful " in SLOWER
 
 
 def test_task_and_page_type_what_the_map_tells() -> None:

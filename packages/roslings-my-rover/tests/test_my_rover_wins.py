@@ -26,7 +26,7 @@ from roslings_my_rover.parts import (
     PILOT,
     SONAR,
     VOICE,
-    Part,
+    RoverPart,
 )
 from roslings_rover.models.world import default_world
 
@@ -126,7 +126,7 @@ def stops_at_the_button(rover: Carried) -> bool:
 class Win:
     """What one sees of a part, and a wrong package in which one does not."""
 
-    part: Part
+    part: RoverPart
     seen: Callable[[Carried], bool]
     mutant: str
     words: tuple[str, ...] = ()
@@ -166,7 +166,7 @@ def test_each_part_has_its_win() -> None:
     assert [win.part for win in WINS] == list(PARTS)
 
 
-def carries(workspace: Path, *parts: Part) -> None:
+def carries(workspace: Path, *parts: RoverPart) -> None:
     """Nothing but these; the voice always, so that there is a rover."""
     shutil.rmtree(workspace / "src", ignore_errors=True)
     for part in {VOICE, *parts}:

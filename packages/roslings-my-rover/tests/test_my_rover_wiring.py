@@ -8,8 +8,9 @@ from itertools import combinations
 
 import pytest
 
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.course import lab
-from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PARTS, PILOT, SONAR, Part
+from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PARTS, PILOT, SONAR, RoverPart
 from roslings_my_rover.wiring import CHECKED, ENTRANCE, LIMITED, MOTORS, Wiring, new_mark, wired
 
 SETS = [frozenset(some) for n in range(len(PARTS) + 1) for some in combinations(PARTS, n)]
@@ -23,7 +24,7 @@ OF_CARDS = {
 """What each stage hears and says by its card."""
 
 
-def stages(parts: frozenset[Part], mark: str = "") -> Iterator[tuple[str, str | None]]:
+def stages(parts: frozenset[RoverPart], mark: str = "") -> Iterator[tuple[str, str | None]]:
     """From which link to which each stage leads; None: to the wheels."""
     wiring = wired(parts, "port", "device", mark)
     for (part, program), (hears, says) in OF_CARDS.items():
@@ -111,8 +112,8 @@ def test_the_names_are_those_of_the_cards() -> None:
         assert set(part.programs) <= programs, part
     assert lab(SONAR.lab).card.node("distance_sensor").subscribes[0].topic == "/sonar_echo"
     assert lab(PILOT.lab).card.node("drive_server").publishes[0].topic == ENTRANCE
-    assert {each.name for each in lab(CABLE.lab).card.node("serial_bridge").parameters} >= {"port"}
-    assert {each.name for each in lab(EYES.lab).card.node("camera").parameters} >= {"device"}
+    assert lab(CABLE.lab).card.node("serial_bridge").of(ParameterWords).parameter("port")
+    assert lab(EYES.lab).card.node("camera").of(ParameterWords).parameter("device")
 
 
 def test_an_argument_is_written_as_ros_takes_it() -> None:

@@ -21,12 +21,12 @@ from std_srvs.srv import SetBool
 from few import few_labs
 from roslings.course import Lab, all_labs, lab
 from roslings.experiment.run_folder import run_folder
-from roslings_class.scheduler import Standing
+from roslings_class.scheduler import BatchProgress
 from roslings_prove.boundary import layer
 from roslings_prove.boundary import run as running
 from roslings_prove.boundary.choice import WANTED, tried
-from roslings_prove.boundary.faults import LAYER, Fault, faults, neutral
-from roslings_prove.boundary.fields import Field, fields_of
+from roslings_prove.boundary.faults import LAYER, BoundaryFault, faults, neutral
+from roslings_prove.boundary.fields import MessageField, fields_of
 from roslings_prove.boundary.operators import AIMED, FIELD, FLOW, WORDS
 from roslings_prove.boundary.run import prove_boundary
 from roslings_prove.prove import Proof
@@ -35,9 +35,11 @@ EXAMPLE = lab("example")
 EVERY_LAB = [pytest.param(each, id=each.name) for each in [*all_labs(), EXAMPLE]]
 
 
-def fault(operator: str, field: str = "", *, kind: str = "sent", other: str = "") -> layer.Fault:
+def fault(
+    operator: str, field: str = "", *, kind: str = "sent", other: str = ""
+) -> layer.InjectedFault:
     """One in /cmd_vel."""
-    return layer.Fault(
+    return layer.InjectedFault(
         {"kind": kind, "operator": operator, "at": "/cmd_vel", "field": field, "other": other}
     )
 
@@ -59,7 +61,7 @@ def twist(x: float, y: float = 0.0) -> Twist:
 def test_fields_are_those_of_the_type() -> None:
     """Messages in it are gone into; lists, times and constants are no fields."""
     assert fields_of(EXAMPLE, "geometry_msgs/msg/Twist") == [
-        Field(f"{part}.{axis}", "float") for part in ("linear", "angular") for axis in "xyz"
+        MessageField(f"{part}.{axis}", "float") for part in ("linear", "angular") for axis in "xyz"
     ]
     found = {each.path: each.kind for each in fields_of(EXAMPLE, "sensor_msgs/msg/Range")}
     assert found["header.frame_id"] == "string"
@@ -71,7 +73,7 @@ def test_fields_are_those_of_the_type() -> None:
 
 def test_fields_of_a_service_and_of_an_own_action() -> None:
     """Each part has its own."""
-    assert fields_of(EXAMPLE, "std_srvs/srv/SetBool") == [Field("data", "bool")]
+    assert fields_of(EXAMPLE, "std_srvs/srv/SetBool") == [MessageField("data", "bool")]
     assert [f.path for f in fields_of(EXAMPLE, "std_srvs/srv/SetBool", 1)] == ["success", "message"]
     action = "rover_interfaces/action/DriveTo"
     parts = [[f.path for f in fields_of(lab("actions"), action, part)] for part in range(3)]
@@ -255,12 +257,12 @@ def test_it_is_put_into_a_package(tmp_path: Path) -> None:
     assert "No module named 'roslings" not in done.stderr
 
 
-def only(operator: str) -> Callable[[Lab], list[Fault]]:
+def only(operator: str) -> Callable[[Lab], list[BoundaryFault]]:
     """The faults of one operator."""
     return lambda one: [each for each in faults(one) if each.operator == operator]
 
 
-def unseen(standing: Standing) -> None:
+def unseen(standing: BatchProgress) -> None:
     """Nobody looks how far it is."""
 
 

@@ -15,10 +15,10 @@ from pathlib import Path
 import pytest
 
 from needed.opened import Opened, Watch
-from roslings.capabilities.conformance import PURE
+from roslings.capabilities.conformance import RUNS
 from roslings.course import Lab, all_labs, root
-from roslings.lab_folders import GRADERS, lab_folders
-from roslings_prove.proofs.digests import Measuring, measuring
+from roslings.folders.lab_folders import GRADERS, lab_folders
+from roslings_prove.proofs.digests import MeasuringCode, measuring
 from sources import code_of
 from until_told import run_until_told
 
@@ -32,7 +32,7 @@ pytestmark = [pytest.mark.slow, pytest.mark.alone]
 
 
 @cache
-def now() -> Measuring:
+def now() -> MeasuringCode:
     """What measures this course."""
     return measuring()
 
@@ -44,9 +44,15 @@ def judging() -> frozenset[str]:
     places += PACKAGES.glob("*/src/*/command_names.py")  # the tables of what can be typed
     files = [file for place in places for file in (place, *place.rglob("*.py")) if file.is_file()]
     files = [file for file in files if file.stem != ACTS]
-    files += (file for file in BESIDE.glob("*/*.py") if file.stem in (*PURE, "__init__"))
+    files += filter(runs_nothing, BESIDE.glob("*/*.py"))
     modules = [now().modules.tree.name_of(file) for file in files]
     return now().modules.reached(modules)
+
+
+def runs_nothing(file: Path) -> bool:
+    """A module beside graders that reads and judges: it leads to nothing that measures."""
+    reached = now().modules.reached([now().modules.tree.name_of(file)])
+    return reached.isdisjoint(RUNS) and "import rclpy" not in file.read_text("utf-8")
 
 
 def opened_by_a_check(lab: Lab, folder: Path) -> Opened:

@@ -20,9 +20,9 @@ from roslings.course.kinds import kind_of
 from roslings.course.labs import example_root
 from roslings.judge.values import same
 from roslings.verdict import CheckOutcome, CheckResult, Environment, Timings, Verdict, outcome_of
-from roslings_changes.card_words import Word, words_of
-from roslings_class.result import Result
-from roslings_prove.contract.changes import Change, changes_of
+from roslings_changes.card_words import CardWord, words_of
+from roslings_class.result import GradingResult
+from roslings_prove.contract.changes import CardChange, changes_of
 from roslings_prove.contract.coverage import Reworded, _proof
 from roslings_prove.prove import Proof
 
@@ -129,7 +129,7 @@ def test_the_grader_learns_another_name() -> None:
     assert other.grader("1.0") == "1.0"
 
 
-def verdict_with(outcome: CheckOutcome) -> Result:
+def verdict_with(outcome: CheckOutcome) -> GradingResult:
     """A result whose one check has this outcome."""
     check = CheckResult(
         id="rate", title="rate", outcome=outcome, points=0, max_points=100, why="too busy"
@@ -143,10 +143,12 @@ def verdict_with(outcome: CheckOutcome) -> Result:
         seconds=Timings(total=1.0),
         environment=Environment.model_construct(),
     )
-    return Result(submission="it", digest="0", attempt=1, state="graded", verdict=verdict)
+    return GradingResult(submission="it", digest="0", attempt=1, state="graded", verdict=verdict)
 
 
-def proof(word: Word, *results: tuple[Change, Result], mutants: tuple[str, ...] = ()) -> Proof:
+def proof(
+    word: CardWord, *results: tuple[CardChange, GradingResult], mutants: tuple[str, ...] = ()
+) -> Proof:
     """What is made of the results of a word's changes."""
     own = [(Reworded(EXAMPLE, change, Path()), result) for change, result in results]
     return _proof(EXAMPLE, word, own, mutants)
@@ -159,7 +161,7 @@ def test_only_a_fault_is_notice_taken() -> None:
     unjudged = proof(HZ, (change, verdict_with("pass")))
     assert "passes as before" in unjudged.problem and f"card.yaml:{HZ.line}" in unjudged.about
     assert proof(HZ, (change, verdict_with("inconclusive"))).is_open
-    broken = Result(
+    broken = GradingResult(
         submission="it", digest="0", attempt=1, state="broken", reason="KeyError: 'beacon'"
     )
     assert "breaks the grader (KeyError: 'beacon')" in proof(HZ, (change, broken)).problem

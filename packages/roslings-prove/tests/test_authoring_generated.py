@@ -23,22 +23,22 @@ from roslings_class import grading
 from roslings_class.alone import alone_in
 from roslings_class.gradebook import gradebook
 from roslings_class.release import is_for_students
-from roslings_class.result import Order, Result, broken
-from roslings_class.scheduler import Standing
+from roslings_class.result import GradingOrder, GradingResult, broken
+from roslings_class.scheduler import BatchProgress
 from roslings_class.submissions import digest_of
-from roslings_prove.generated import choice, life
+from roslings_prove.generated import choice, graded_process
 from roslings_prove.generated import run as running
 from roslings_prove.generated.choice import Generated, chosen, generated
 from roslings_prove.generated.explained import FILE, explained
 from roslings_prove.generated.keeping import AlreadyProving
 from roslings_prove.generated.kills import kill_of
-from roslings_prove.generated.packages import Fate, Wrong, fate_of, judged_by
+from roslings_prove.generated.packages import Fate, GeneratedPackage, fate_of, judged_by
 from roslings_prove.generated.run import Keeping, prove_generated
-from roslings_prove.generated.table import HEAD, Outcome, told
+from roslings_prove.generated.table import HEAD, GeneratedOutcome, told
 from roslings_prove.proofs.digests import measuring
 from roslings_prove.proofs.kept import Folder, name_in
 from roslings_prove.proofs.kills import KnownKill, kills_in, write_kills
-from roslings_prove.proofs.record import Recorder
+from roslings_prove.proofs.record import ProofRecorder
 
 EXAMPLE = lab("example")
 
@@ -314,11 +314,11 @@ def test_a_package_is_the_solution_with_one_change(
     packages: list[Generated], tmp_path: Path
 ) -> None:
     """One file differs, and its diff says how."""
-    package = Wrong(packages[0]).make(tmp_path)
+    package = GeneratedPackage(packages[0]).make(tmp_path)
     after = (package / EXAMPLE.card.package / packages[0].file).read_text("utf-8")
     lines = packages[0].changed.splitlines()
     assert all(line[1:] in after for line in lines if line.startswith("+"))
-    assert packages[0].name in Wrong(packages[0]).name
+    assert packages[0].name in GeneratedPackage(packages[0]).name
 
 
 # --- what came of them -------------------------------------------------------------------------
@@ -336,7 +336,7 @@ ENVIRONMENT = Environment(
 )
 
 
-def result(outcome: CheckOutcome = "fail", submission: str = "it") -> Result:
+def result(outcome: CheckOutcome = "fail", submission: str = "it") -> GradingResult:
     """A result with one check."""
     check = CheckResult(id="rate", title="rate", outcome=outcome, points=0, max_points=100)
     verdict = Verdict(
@@ -348,7 +348,9 @@ def result(outcome: CheckOutcome = "fail", submission: str = "it") -> Result:
         seconds=Timings(total=1.0),
         environment=ENVIRONMENT,
     )
-    return Result(submission=submission, digest="0", attempt=1, state="graded", verdict=verdict)
+    return GradingResult(
+        submission=submission, digest="0", attempt=1, state="graded", verdict=verdict
+    )
 
 
 def test_only_a_failed_check_is_a_kill() -> None:
@@ -356,7 +358,7 @@ def test_only_a_failed_check_is_a_kill() -> None:
     assert fate_of(result("fail")) is Fate.KILLED
     assert fate_of(result("pass")) is Fate.SURVIVED
     assert fate_of(result("inconclusive")) is Fate.UNCLEAR
-    order = Order.model_construct(submission="it", digest="0", attempt=1)
+    order = GradingOrder.model_construct(submission="it", digest="0", attempt=1)
     assert fate_of(broken(order, "no memory")) is Fate.UNCLEAR
     assert fate_of(None) is Fate.UNCLEAR
 
@@ -375,13 +377,13 @@ def entry(package: Generated, why: str = "equivalent: It does the same.") -> str
     return f"- package: {package.name}\n  diff: |\n{diff}  {why}\n"
 
 
-def outcome(packages: list[Generated], own: Lab, survivors: int) -> Outcome:
+def outcome(packages: list[Generated], own: Lab, survivors: int) -> GeneratedOutcome:
     """The first ones survive."""
     fates = {
         each: Fate.SURVIVED if number < survivors else Fate.KILLED
         for number, each in enumerate(packages)
     }
-    return Outcome("example", fates, explained(own, packages))
+    return GeneratedOutcome("example", fates, explained(own, packages))
 
 
 def test_an_explained_survivor_is_taken_out_of_the_rate(
@@ -397,7 +399,7 @@ def test_an_explained_survivor_is_taken_out_of_the_rate(
     assert not any(packages[0].name in line for line in lines)
 
 
-def wrong(found: Outcome) -> list[str]:
+def wrong(found: GeneratedOutcome) -> list[str]:
     """What does not hold."""
     return [proof.line for proof in found.proofs() if not proof.holds]
 
@@ -419,7 +421,7 @@ def test_too_few_that_are_caught_is_no_proof(packages: list[Generated], tmp_path
     some = explaining(tmp_path)
     (few,) = wrong(outcome(packages, some, len(packages) // 10))
     assert few.startswith("WRONG") and "see the survivors" in few
-    unclear = Outcome("example", dict.fromkeys(packages, Fate.UNCLEAR), {})
+    unclear = GeneratedOutcome("example", dict.fromkeys(packages, Fate.UNCLEAR), {})
     assert all(line.startswith("open") for line in wrong(unclear))
 
 
@@ -492,7 +494,7 @@ def test_a_run_goes_on_where_it_was_ended(course: Lab, tmp_path: Path) -> None:
     """Two are known, one is graded, and nothing the next time. A kill's evidence is kept."""
     keeping = Keeping(tmp_path / "kept", tmp_path / "kills")
     keeping.folder.mkdir()
-    known = [Wrong(each) for each in generated(course)[1:]]
+    known = [GeneratedPackage(each) for each in generated(course)[1:]]
     with gradebook(keeping.folder, running.BOOK) as book:
         for each in known:
             digest = digest_of(each.make(tmp_path / "made"))
@@ -513,7 +515,7 @@ def test_a_run_goes_on_where_it_was_ended(course: Lab, tmp_path: Path) -> None:
         assert {each.attempt for each in book.latest().values()} == {1}
 
 
-def _note(seen: list[int], now: Standing) -> None:
+def _note(seen: list[int], now: BatchProgress) -> None:
     seen.append(now.done)
 
 
@@ -528,16 +530,19 @@ def test_two_commands_do_not_keep_in_one_place(course: Lab, tmp_path: Path) -> N
 
 def test_large_evidence_is_not_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It would make the course large."""
-    order = Order.model_construct(room=tmp_path)
-    for size, stays in ((life.SMALL_BYTES, True), (life.SMALL_BYTES + 1, False)):
+    order = GradingOrder.model_construct(room=tmp_path)
+    for size, stays in (
+        (graded_process.SMALL_BYTES, True),
+        (graded_process.SMALL_BYTES + 1, False),
+    ):
         monkeypatch.setattr(
             grading, "main", lambda order, n=size: order.evidence.write_bytes(b"x" * n)
         )
-        life.main(order)
+        graded_process.main(order)
         assert order.evidence.exists() is stays
 
 
-def _saw(size: int, order: Order) -> None:
+def _saw(size: int, order: GradingOrder) -> None:
     order.evidence.write_bytes(b"x" * size)
 
 
@@ -570,7 +575,7 @@ def test_a_kill_whose_line_is_gone_is_left_out_and_told(course: Lab, tmp_path: P
     file = course.solution / kills[0].edit.file
     file.write_text(file.read_text("utf-8").replace(kills[0].edit.find, ""), "utf-8")
     assert names[0] not in str(folder.packages(course))
-    (told,) = Recorder(folder, measuring()).forget_dead_kills([course])
+    (told,) = ProofRecorder(folder, measuring()).forget_dead_kills([course])
     assert "of its known kills fit the solution no longer, and go" in told.line
     assert f"prove {course.name} --generated --keep-kills" in told.line
     assert names[0] not in {kill.name for kill in kills_in(folder.path, course)}

@@ -16,7 +16,7 @@ from roslings.course.task import write_task
 from roslings.workspace.inspect import inspect_package
 from roslings_class.release import leaks, release
 from roslings_prove.consistency import files_fit
-from roslings_prove.contract.promises import Account, prove_promises
+from roslings_prove.contract.promises import PromiseAccount, prove_promises
 from roslings_prove.new_lab import new_lab
 from roslings_prove.prove import Proof
 
@@ -89,7 +89,7 @@ def test_its_sentences_are_accounted_for(written: Lab) -> None:
     """As the example's are, with the new names."""
     found = list(prove_promises(written))
     assert [each.line for each in found if isinstance(each, Proof) and not each.holds] == []
-    (account,) = (each for each in found if isinstance(each, Account))
+    (account,) = (each for each in found if isinstance(each, PromiseAccount))
     assert account.accounted == account.sentences > 0
 
 

@@ -13,16 +13,17 @@ from pathlib import Path
 import pytest
 
 from roslings.course import all_labs, lab, root
-from roslings_prove.proofs.digests import Measuring, measuring
-from roslings_prove.proofs.due import AT_EACH_LANDING, PART, Proofs, Standing
-from roslings_prove.proofs.kept import LARGEST_BYTES, MOST_BYTES, Folder, KeptProof, kept_here
-from roslings_prove.prove import Package, Solution, Starter
+from roslings_prove.proofs.archives import ARCHIVES, LARGEST_BYTES
+from roslings_prove.proofs.digests import MeasuringCode, measuring
+from roslings_prove.proofs.due import AT_EACH_LANDING, PART, Proofs, ProofStanding
+from roslings_prove.proofs.kept import MOST_BYTES, Folder, KeptProof, kept_here
+from roslings_prove.prove import ProvenPackage, Solution, StarterPackage
 
 PAGE = (root() / "site/pages/teachers/kept-proofs.md").read_text("utf-8")
 WORDS = " ".join(PAGE.split())
 LABS = all_labs()
 PACKAGES = [package for each in LABS for package in kept_here().packages(each)]
-MUTANTS = [package for package in PACKAGES if not isinstance(package, Solution | Starter)]
+MUTANTS = [package for package in PACKAGES if not isinstance(package, Solution | StarterPackage)]
 ALWAYS = len(PACKAGES) - len(MUTANTS)
 MANY, MANY_MUTANTS = round(len(PACKAGES), -1), round(len(MUTANTS), -1)
 """As the page tells them, and reckons with them: one more mutant changes no number of it."""
@@ -60,7 +61,11 @@ def test_the_rules_are_told_with_their_numbers() -> None:
     assert f"**{NAMES[AT_EACH_LANDING].capitalize()} more, at each landing.**" in WORDS
     assert f"After a change of the core, {part} of all, the oldest first." in WORDS
     assert f"so {NAMES[PART]} recorded changes measure all" in WORDS
-    assert f"at most {LARGEST_BYTES:,} bytes, and all of them have at most {MOST_BYTES:,}" in WORDS
+    assert f"`0.tar.xz` to `{ARCHIVES - 1}.tar.xz`" in WORDS
+    assert (
+        f"at most {LARGEST_BYTES:,} bytes, and all kept files together have at most {MOST_BYTES:,}"
+        in WORDS
+    )
 
 
 def test_the_chances_that_invented_evidence_is_found() -> None:
@@ -84,12 +89,12 @@ def test_the_chances_that_a_wrong_core_is_found() -> None:
 
 
 @pytest.fixture(scope="module")
-def now() -> Measuring:
+def now() -> MeasuringCode:
     """What measures this course."""
     return measuring()
 
 
-def proofs(folder: Path, now: Measuring, core: str) -> Proofs:
+def proofs(folder: Path, now: MeasuringCode, core: str) -> Proofs:
     """All packages kept, none stale, all of one age: `known` measured them."""
     other = replace(now, labs=now.labs)
     other.__dict__["core"] = core
@@ -97,17 +102,17 @@ def proofs(folder: Path, now: Measuring, core: str) -> Proofs:
     line = KeptProof(
         package="", content="", card="", experiments="", core="known", evidence="", checks={}
     )
-    found.__dict__["standings"] = [Standing(package, line, 0, "") for package in PACKAGES]
+    found.__dict__["standings"] = [ProofStanding(package, line, 0, "") for package in PACKAGES]
     return found
 
 
 def share(found: Proofs, commit: str) -> float:
     """The part of the mutants that is due."""
-    due: list[Package] = [each.package for each in found.due(commit)]
-    return sum(not isinstance(each, Solution | Starter) for each in due) / len(MUTANTS)
+    due: list[ProvenPackage] = [each.package for each in found.due(commit)]
+    return sum(not isinstance(each, Solution | StarterPackage) for each in due) / len(MUTANTS)
 
 
-def test_the_rules_draw_as_often_as_the_page_says(tmp_path: Path, now: Measuring) -> None:
+def test_the_rules_draw_as_often_as_the_page_says(tmp_path: Path, now: MeasuringCode) -> None:
     """At each landing exactly the lot; with a new core the part besides, over many cores."""
     settled = proofs(tmp_path, now, "known")
     assert share(settled, "a") == share(settled, "b") == AT_EACH_LANDING / len(MUTANTS)
@@ -115,7 +120,7 @@ def test_the_rules_draw_as_often_as_the_page_says(tmp_path: Path, now: Measuring
     assert sum(shares) / len(shares) == pytest.approx(measured_with_a_new_core(), abs=0.005)
 
 
-def test_so_many_recorded_changes_measure_all(tmp_path: Path, now: Measuring) -> None:
+def test_so_many_recorded_changes_measure_all(tmp_path: Path, now: MeasuringCode) -> None:
     """Each takes the oldest, and what it measured is the newest then."""
     left = {package.name for package in PACKAGES}
     found = proofs(tmp_path, now, "")

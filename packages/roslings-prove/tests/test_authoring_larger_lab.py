@@ -15,6 +15,10 @@ from pathlib import Path
 
 import pytest
 
+from roslings.capabilities.launch.contract import LaunchWords
+from roslings.capabilities.parameters.contract import ParameterWords
+from roslings.capabilities.serial.contract import SerialWords
+from roslings.capabilities.services.contract import ServiceWords
 from roslings.course import Lab, lab, root
 from roslings.workspace.inspect import inspect_package
 from roslings_prove.consistency import files_fit
@@ -127,7 +131,8 @@ def test_each_new_check_is_shown_by_a_wrong_package(course: Path) -> None:
     assert new <= caught
     assert new <= set(made.card.points)
     node = made.card.nodes[0]
-    assert node.serves and node.parameters and made.card.launch and made.card.board
+    assert node.of(ServiceWords).serves and node.of(ParameterWords).parameters
+    assert made.card.of(LaunchWords).launch and made.card.of(SerialWords).board
 
 
 @pytest.mark.slow

@@ -16,7 +16,7 @@ from roslings.course.sentences import passages_of
 from roslings_changes.card_words import words_of
 from roslings_prove.contract.changes import changes_of
 from roslings_prove.contract.coverage import mutants_by_word
-from roslings_prove.contract.promises import Account, prove_promises
+from roslings_prove.contract.promises import PromiseAccount, prove_promises
 from roslings_prove.prove import Proof
 from roslings_prove.telling import WIDTH, told
 
@@ -56,7 +56,7 @@ def test_each_sentence_is_accounted_for(one: Lab) -> None:
     """A new one in a task or on a card is told here; so is a mutant that is no longer there."""
     found = list(prove_promises(one))
     assert [each.line for each in found if isinstance(each, Proof) and not each.holds] == []
-    (account,) = (each for each in found if isinstance(each, Account))
+    (account,) = (each for each in found if isinstance(each, PromiseAccount))
     assert account.accounted == account.sentences > 0
 
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import lzma
+import random
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+import tarfile
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,10 +16,18 @@ import pytest
 
 from roslings.course import Lab, all_labs, root
 from roslings.workspace import normal
-from roslings.workspace.normal import digest_of_file
+from roslings.workspace.normal import digest_of, digest_of_file
 from roslings_launcher.seeds import other_pythons
-from roslings_prove.proofs.closure import Modules, Tree
-from roslings_prove.proofs.digests import BUILT_TYPES, Measuring, card_digest, measuring
+from roslings_prove.proofs.archives import (
+    ARCHIVES,
+    LARGEST_BYTES,
+    MOST_UNPACKED_BYTES,
+    Archives,
+    ArchiveTooLarge,
+    packed,
+)
+from roslings_prove.proofs.closure import Modules, ModuleTree
+from roslings_prove.proofs.digests import BUILT_TYPES, MeasuringCode, card_digest, measuring
 from roslings_prove.proofs.due import AT_EACH_LANDING, PART, Proofs
 from roslings_prove.proofs.judging import judge_kept
 from roslings_prove.proofs.kept import (
@@ -26,6 +37,7 @@ from roslings_prove.proofs.kept import (
     kept_here,
     name_in,
 )
+from roslings_prove.proofs.record import ProofRecorder
 from roslings_prove.prove import Proof, packages_of
 from sources import code_of, sources
 
@@ -135,7 +147,7 @@ def _output(python: str, script: Path) -> str:
 
 
 @pytest.fixture(scope="module")
-def now() -> Measuring:
+def now() -> MeasuringCode:
     """Of the course as it is."""
     return measuring()
 
@@ -149,14 +161,14 @@ def copy(tmp_path: Path) -> Iterator[Path]:
     yield tmp_path
 
 
-def tree(course: Path) -> Tree:
+def tree(course: Path) -> ModuleTree:
     """The modules of a copy."""
-    return Tree(tuple(sources(course)), course / "graders")
+    return ModuleTree(tuple(sources(course)), course / "graders")
 
 
-def measured_by(course: Path, labs: tuple[Lab, ...] = tuple(LABS.values())) -> Measuring:
+def measured_by(course: Path, labs: tuple[Lab, ...] = tuple(LABS.values())) -> MeasuringCode:
     """What measures, where the engine is another."""
-    return Measuring(Modules(tree(course)), labs, root())
+    return MeasuringCode(Modules(tree(course)), labs, root())
 
 
 def edit(course: Path, module: str, old: str, new: str) -> None:
@@ -168,18 +180,18 @@ def edit(course: Path, module: str, old: str, new: str) -> None:
     file.write_text(text.replace(old, new), "utf-8")
 
 
-def does(measuring: Measuring, module: str) -> frozenset[str]:
+def does(measuring: MeasuringCode, module: str) -> frozenset[str]:
     """What a module does, statement by statement."""
     return measuring.modules.does(measuring.modules.code(module))
 
 
-def stale_labs(before: Measuring, after: Measuring) -> set[str]:
+def stale_labs(before: MeasuringCode, after: MeasuringCode) -> set[str]:
     """The labs whose own experiments are others."""
     return {name for name, lab in LABS.items() if before.experiments(lab) != after.experiments(lab)}
 
 
 @pytest.mark.slow
-def test_a_comment_makes_nothing_stale(copy: Path, now: Measuring) -> None:
+def test_a_comment_makes_nothing_stale(copy: Path, now: MeasuringCode) -> None:
     """Nor does a docstring, or a blank line."""
     for module in now.shared:
         file = tree(copy).file_of(module)
@@ -190,31 +202,36 @@ def test_a_comment_makes_nothing_stale(copy: Path, now: Measuring) -> None:
 
 
 @pytest.mark.slow
-def test_a_module_that_moves_makes_nothing_stale(copy: Path, now: Measuring) -> None:
+def test_a_module_that_moves_makes_nothing_stale(copy: Path, now: MeasuringCode) -> None:
     """Under another name in another room, with its imports brought up to date."""
     engine = copy / "packages/roslings/src/roslings"
-    (engine / "exits.py").rename(engine / "judge/endings.py")
+    (engine / "seen/exits.py").rename(engine / "judge/endings.py")
     for file in copy.rglob("*.py"):
         text = file.read_text("utf-8")
-        if "roslings.exits" in text:
-            file.write_text(text.replace("roslings.exits", "roslings.judge.endings"), "utf-8")
+        if "roslings.seen.exits" in text:
+            file.write_text(text.replace("roslings.seen.exits", "roslings.judge.endings"), "utf-8")
     # The package that it lies in now is loaded with it: it holds nothing here.
     (engine / "judge/__init__.py").write_text("", "utf-8")
     after = measured_by(copy)
-    assert does(now, "roslings.exits") == does(after, "roslings.judge.endings")
+    assert does(now, "roslings.seen.exits") == does(after, "roslings.judge.endings")
 
 
 @pytest.mark.slow
-def test_another_thing_of_the_same_name_is_another(copy: Path, now: Measuring) -> None:
+def test_another_thing_of_the_same_name_is_another(copy: Path, now: MeasuringCode) -> None:
     """`same` from elsewhere: no word of the module but its import is another."""
     before = does(now, "roslings.experiment.simulated")
     engine = copy / "packages/roslings/src/roslings"
-    other = (engine / "rates.py").read_text("utf-8")
+    other = (engine / "seen/rates.py").read_text("utf-8")
     other = other.replace("STANDARD_ERRORS * statistics", "statistics")
     assert "def place_on_ticks" in other
     other = other.replace("sim_ns if passed else None", "sim_ns if passed else 0")
-    (engine / "rates2.py").write_text(other, "utf-8")
-    edit(copy, "roslings.experiment.simulated", "from roslings.rates ", "from roslings.rates2 ")
+    (engine / "seen/rates2.py").write_text(other, "utf-8")
+    edit(
+        copy,
+        "roslings.experiment.simulated",
+        "from roslings.seen.rates ",
+        "from roslings.seen.rates2 ",
+    )
     assert does(measured_by(copy), "roslings.experiment.simulated") != before
 
 
@@ -231,7 +248,7 @@ def test_another_thing_of_the_same_name_is_another(copy: Path, now: Measuring) -
     ],
 )
 def test_a_change_of_what_all_share_is_one_of_the_core(
-    module: str, copy: Path, now: Measuring
+    module: str, copy: Path, now: MeasuringCode
 ) -> None:
     """Also in what is only started: the guardian is imported by nobody."""
     file = tree(copy).file_of(module)
@@ -242,7 +259,7 @@ def test_a_change_of_what_all_share_is_one_of_the_core(
 
 
 @pytest.mark.slow
-def test_another_text_of_what_all_share_is_one_of_the_core(copy: Path, now: Measuring) -> None:
+def test_another_text_of_what_all_share_is_one_of_the_core(copy: Path, now: MeasuringCode) -> None:
     """What labs take of it by its name makes none of them stale: a fifth of all is due."""
     old, new = "class Process:\n", "class Process:\n    ONE_MORE = 1\n\n"
     edit(copy, "roslings.arena.process", old, new)
@@ -255,11 +272,11 @@ def test_message_types_that_are_built_anew_are_a_change_of_the_core(copy: Path) 
     """Nodes of students load them."""
     shutil.copy(root() / "constraints.txt", copy)
     labs = tuple(LABS.values())
-    before = Measuring(Modules(tree(copy)), labs, copy)
+    before = MeasuringCode(Modules(tree(copy)), labs, copy)
     assert before.core
     built = next(copy.glob(BUILT_TYPES))
     built.write_bytes(built.read_bytes() + b"0")
-    after = Measuring(Modules(tree(copy)), labs, copy)
+    after = MeasuringCode(Modules(tree(copy)), labs, copy)
     assert after.core != before.core and not stale_labs(before, after)
 
 
@@ -280,7 +297,7 @@ def test_message_types_that_are_built_anew_are_a_change_of_the_core(copy: Path) 
     ],
 )
 def test_what_one_lab_is_measured_with_makes_that_lab_stale(
-    module: str, labs: set[str], copy: Path, now: Measuring
+    module: str, labs: set[str], copy: Path, now: MeasuringCode
 ) -> None:
     """For certain, and no other; programs that are started by their path count, too."""
     file = tree(copy).file_of(module)
@@ -299,7 +316,7 @@ def test_what_one_lab_is_measured_with_makes_that_lab_stale(
         "graders.black_box.demands",
     ],
 )
-def test_what_only_judges_makes_nothing_stale(module: str, copy: Path, now: Measuring) -> None:
+def test_what_only_judges_makes_nothing_stale(module: str, copy: Path, now: MeasuringCode) -> None:
     """It is tried on every kept proof, each time."""
     file = tree(copy).file_of(module)
     assert file
@@ -326,7 +343,7 @@ def test_what_only_judges_makes_nothing_stale(module: str, copy: Path, now: Meas
     ],
 )
 def test_of_a_grader_the_experiments_count(
-    old: str, new: str, is_stale: bool, tmp_path: Path, now: Measuring
+    old: str, new: str, is_stale: bool, tmp_path: Path, now: MeasuringCode
 ) -> None:
     """And what they use of its file; not its checks."""
     lab = LABS["topics"]
@@ -356,7 +373,7 @@ def test_of_a_card_all_counts_but_its_points_and_comments(tmp_path: Path) -> Non
 # --- which are due -----------------------------------------------------------------------------
 
 
-def all_kept(folder: Path, now: Measuring, *, cores: dict[str, str] | None = None) -> Folder:
+def all_kept(folder: Path, now: MeasuringCode, *, cores: dict[str, str] | None = None) -> Folder:
     """Lines for every package of one lab, as if it were measured now, or by these cores."""
     lab, kept = LABS["topics"], Folder(folder)
     for core in dict.fromkeys([*(cores or {}).values(), now.core]):
@@ -378,14 +395,14 @@ def all_kept(folder: Path, now: Measuring, *, cores: dict[str, str] | None = Non
     return kept
 
 
-def why(folder: Folder, now: Measuring, commit: str = "a") -> dict[str, str]:
+def why(folder: Folder, now: MeasuringCode, commit: str = "a") -> dict[str, str]:
     """Package of the lab to the rule by which it is due."""
     lab = LABS["topics"]
     due = Proofs([lab], folder, now).due(commit)
     return {name_in(lab, each.package): each.why for each in due}
 
 
-def test_solutions_and_starters_are_always_due(tmp_path: Path, now: Measuring) -> None:
+def test_solutions_and_starters_are_always_due(tmp_path: Path, now: MeasuringCode) -> None:
     """And twenty more, which the commit draws: another commit, others."""
     folder = all_kept(tmp_path, now)
     found = {commit: why(folder, now, commit) for commit in "ab"}
@@ -396,7 +413,7 @@ def test_solutions_and_starters_are_always_due(tmp_path: Path, now: Measuring) -
     assert why(folder, now, "a").keys() - {"solution", "starter"} == found["a"].keys()
 
 
-def test_where_the_core_is_new_the_oldest_fifth_is_due(tmp_path: Path, now: Measuring) -> None:
+def test_where_the_core_is_new_the_oldest_fifth_is_due(tmp_path: Path, now: MeasuringCode) -> None:
     """The oldest first; of one age, each core has others."""
     names = [name_in(LABS["topics"], package) for package in packages_of(LABS["topics"])]
     old = names[5:9]
@@ -414,7 +431,7 @@ def test_where_the_core_is_new_the_oldest_fifth_is_due(tmp_path: Path, now: Meas
 
 
 @pytest.mark.parametrize("part", ["content", "card", "experiments"])
-def test_what_is_stale_is_due(part: str, tmp_path: Path, now: Measuring) -> None:
+def test_what_is_stale_is_due(part: str, tmp_path: Path, now: MeasuringCode) -> None:
     """For certain, and it is said what is another."""
     lab, folder = LABS["topics"], all_kept(tmp_path, now)
     lines = folder.lines(lab)
@@ -425,7 +442,7 @@ def test_what_is_stale_is_due(part: str, tmp_path: Path, now: Measuring) -> None
     assert why(folder, now)[name] == f"another {words}"
 
 
-def test_what_was_never_measured_is_due(tmp_path: Path, now: Measuring) -> None:
+def test_what_was_never_measured_is_due(tmp_path: Path, now: MeasuringCode) -> None:
     """Each mutant that has no line."""
     found = why(Folder(tmp_path), now)
     assert len(found) == len(packages_of(LABS["topics"]))
@@ -449,6 +466,7 @@ def test_what_is_kept_is_small_and_names_no_machine() -> None:
     folder = kept_here()
     sizes = [file.stat().st_size for file in folder.path.rglob("*") if file.is_file()]
     assert sum(sizes) <= 10_000_000 and max(sizes) <= 1_000_000
+    assert folder.bytes == sum(sizes)
 
 
 # --- sabotage ----------------------------------------------------------------------------------
@@ -471,6 +489,12 @@ def wrong_ones(folder: Folder) -> dict[str, str]:
     return {each.about: each.problem for each in found}
 
 
+def wrong_packages(folder: Folder) -> dict[str, str]:
+    """The same by package, as lines call it."""
+    found = (each for each in judge_kept(LABS["nodes"], folder) if not each.holds)
+    return {each.package.removeprefix("nodes: "): each.problem for each in found}
+
+
 ONE, OTHER = [name for name in kept_here().lines(LABS["nodes"]) if name.startswith("mutant ")][:2]
 """Two of those that are kept."""
 
@@ -483,13 +507,28 @@ def spoil(folder: Folder, name: str, **changes: object) -> None:
     folder.write(lab, lines, list(lines))
 
 
+def evidence(folder: Folder, name: str) -> bytes:
+    """What is kept of a package."""
+    found = folder.archives(LABS["nodes"]).evidence(name)
+    assert found
+    return found
+
+
+def pack_anew(folder: Folder, name: str, members: Mapping[str, bytes | None]) -> Path:
+    """Put these into the archive of a package, or take them out; no line says another word."""
+    archives = folder.archives(LABS["nodes"])
+    file = archives.file(name)
+    there = {**archives.members(file), **members}
+    file.write_bytes(packed({each: content for each, content in there.items() if content}))
+    return file
+
+
 def test_evidence_of_another_mutant_is_found(sabotaged: Folder) -> None:
     """Both are whole, and their lines tell of them: what they carry does not fit."""
-    lab = LABS["nodes"]
-    one, other = (sabotaged.evidence(lab, name) for name in (ONE, OTHER))
-    first, second = one.read_bytes(), other.read_bytes()
-    one.write_bytes(second), other.write_bytes(first)
-    lines = sabotaged.lines(lab)
+    one, other = evidence(sabotaged, ONE), evidence(sabotaged, OTHER)
+    pack_anew(sabotaged, ONE, {ONE: other})
+    pack_anew(sabotaged, OTHER, {OTHER: one})
+    lines = sabotaged.lines(LABS["nodes"])
     spoil(sabotaged, ONE, evidence=lines[OTHER].evidence)
     spoil(sabotaged, OTHER, evidence=lines[ONE].evidence)
     found = wrong_ones(sabotaged)
@@ -514,12 +553,202 @@ def test_a_line_that_does_not_fit_its_files_is_found(
     assert said in problem
 
 
-def test_a_line_without_a_file_and_a_file_without_a_line_are_found(sabotaged: Folder) -> None:
-    """Each is named."""
+def test_a_changed_byte_of_evidence_is_found(sabotaged: Folder) -> None:
+    """Packed again, all else of the archive is as it was: one package is wrong."""
+    file = pack_anew(sabotaged, ONE, {ONE: evidence(sabotaged, ONE).replace(b"1", b"2", 1)})
+    ((package, problem),) = wrong_packages(sabotaged).items()
+    assert package == ONE
+    assert f"its evidence in nodes/{file.name} is not the one that was judged" in problem
+
+
+def test_evidence_that_is_none_is_found(sabotaged: Folder) -> None:
+    """Also where its line tells of it."""
+    file = pack_anew(sabotaged, ONE, {ONE: b"no evidence"})
+    spoil(sabotaged, ONE, evidence=digest_of(b"no evidence"))
+    ((_, problem),) = wrong_ones(sabotaged).items()
+    assert f"its evidence in nodes/{file.name} cannot be read" in problem
+
+
+def test_renamed_evidence_is_found(sabotaged: Folder) -> None:
+    """The line has none, and no line tells of the other name. Each is named with its file."""
+    file = pack_anew(sabotaged, ONE, {ONE: None, "stranger": evidence(sabotaged, ONE)})
+    found = wrong_ones(sabotaged)
+    assert "no line tells of" in found.pop(f"nodes: stranger in {file.name}")
+    ((about, problem),) = found.items()
+    assert ONE.removeprefix("mutant ") in about and f"is not there, in nodes/{file.name}" in problem
+
+
+def test_evidence_in_an_archive_of_others_is_found(sabotaged: Folder) -> None:
+    """The name of a package says where it is."""
+    archives = sabotaged.archives(LABS["nodes"])
+    elsewhere = next(
+        n for n in sabotaged.lines(LABS["nodes"]) if archives.file(n) != archives.file(ONE)
+    )
+    file = pack_anew(sabotaged, elsewhere, {ONE: evidence(sabotaged, ONE)})
+    (found,) = wrong_ones(sabotaged)
+    assert found == f"nodes: {ONE} in {file.name}"
+
+
+def in_one_archive(folder: Folder) -> tuple[Path, set[str]]:
+    """An archive, and the names of its packages."""
+    archives = folder.archives(LABS["nodes"])
+    file = archives.file(ONE)
+    return file, set(archives.members(file))
+
+
+def one_byte_changed(file: Path) -> None:
+    """In the middle."""
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes(content)
+
+
+def cut_short(file: Path) -> None:
+    """Its last bytes are gone."""
+    file.write_bytes(file.read_bytes()[:-50])
+
+
+def too_large(file: Path) -> None:
+    """By a byte."""
+    file.write_bytes(file.read_bytes().ljust(LARGEST_BYTES + 1))
+
+
+def too_large_unpacked(file: Path) -> None:
+    """Of zeros, which take no room as long as they are packed."""
+    file.write_bytes(lzma.compress(bytes(MOST_UNPACKED_BYTES + 1), preset=0))
+
+
+def no_ordinary_file(file: Path) -> None:
+    """A link out of the folder is not followed."""
+    link = tarfile.TarInfo(ONE)
+    link.type, link.linkname = tarfile.SYMTYPE, "/etc/passwd"
+    with tarfile.open(file, "w:xz") as archive:
+        archive.addfile(link)
+
+
+def one_twice(file: Path) -> None:
+    """Nobody could tell which of both counts."""
+    with tarfile.open(file, "w:xz") as archive:
+        for _ in range(2):
+            archive.addfile(tarfile.TarInfo(ONE))
+
+
+@pytest.mark.parametrize(
+    ("damage", "said"),
+    [
+        (one_byte_changed, "cannot be read"),
+        (cut_short, "has no end"),
+        (too_large, "has more than 1,000,000 bytes"),
+        (too_large_unpacked, "has no end, or unpacked more than 100,000,000 bytes"),
+        (no_ordinary_file, "no ordinary file"),
+        (one_twice, f"holds {ONE} twice"),
+        (Path.unlink, "is not there"),
+    ],
+)
+def test_an_archive_that_is_not_what_it_was_is_found(
+    damage: Callable[[Path], None], said: str, sabotaged: Folder
+) -> None:
+    """All packages in it are named, each with the file; no other is wrong."""
+    file, names = in_one_archive(sabotaged)
+    damage(file)
+    found = wrong_packages(sabotaged)
+    assert found.keys() == names
+    assert all(said in each and f"nodes/{file.name}" in each for each in found.values())
+
+
+@pytest.mark.parametrize("name", ["8.tar.xz", "solution.evidence"])
+def test_a_file_that_no_package_belongs_into_is_found(name: str, sabotaged: Folder) -> None:
+    """A copy of an archive, or what an earlier course kept."""
+    file, _ = in_one_archive(sabotaged)
+    shutil.copy(file, file.with_name(name))
+    assert list(wrong_ones(sabotaged)) == [f"nodes: {name}"]
+
+
+# --- how evidence is packed --------------------------------------------------------------------
+
+
+def test_the_same_evidence_makes_the_same_bytes(tmp_path: Path) -> None:
+    """In whatever order it came; what one archive holds says nothing of the others."""
+    names = [f"mutant {n}" for n in range(60)]
+    for folder, order in (("one", names), ("other", names[::-1])):
+        archives = Archives(tmp_path / folder)
+        for name in order:
+            archives.put(name, name.encode())
+    one, other = (
+        {file.name: file.read_bytes() for file in Archives(tmp_path / folder).files()}
+        for folder in ("one", "other")
+    )
+    assert one == other and len(one) == ARCHIVES
+    again = Archives(tmp_path / "one")
+    assert [again.evidence(name) for name in names] == [name.encode() for name in names]
+
+
+def test_one_package_recorded_anew_rewrites_one_file(sabotaged: Folder) -> None:
+    """No line of another changes either: each tells of its own evidence."""
+    before = {file: file.read_bytes() for file in sabotaged.archives(LABS["nodes"]).files()}
+    sabotaged.archives(LABS["nodes"]).put(ONE, b"another")
+    after = {file: file.read_bytes() for file in sabotaged.archives(LABS["nodes"]).files()}
+    changed = [file for file in after if after[file] != before.get(file)]
+    assert changed == [sabotaged.archives(LABS["nodes"]).file(ONE)]
+    assert before.keys() == after.keys() and len(wrong_ones(sabotaged)) == 1
+
+
+def test_evidence_that_makes_an_archive_too_large_is_refused(sabotaged: Folder) -> None:
+    """Its file and its size are told, and all is as it was."""
+    file, _ = in_one_archive(sabotaged)
+    before = file.read_bytes()
+    noise = random.Random(1).randbytes(LARGEST_BYTES)
+    with pytest.raises(
+        ArchiveTooLarge, match=rf"nodes/{file.name} would have 1,0\d\d,\d\d\d bytes"
+    ):
+        sabotaged.archives(LABS["nodes"]).put(ONE, noise)
+    assert file.read_bytes() == before and not wrong_ones(sabotaged)
+
+
+def test_who_is_ended_while_writing_leaves_what_was_there(
+    sabotaged: Folder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No half archive, and no other file beside it."""
+    folder = sabotaged.archives(LABS["nodes"]).folder
+    before = {file: file.read_bytes() for file in folder.iterdir()}
+
+    def half(file: Path, content: bytes) -> None:
+        with file.open("wb") as opened:
+            opened.write(content[: len(content) // 2])
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
+        patched.setattr(Path, "write_bytes", half)
+        sabotaged.archives(LABS["nodes"]).put(ONE, b"another")
+    assert {file: file.read_bytes() for file in folder.iterdir()} == before
+
+
+def test_evidence_without_a_line_goes_with_the_next_line(sabotaged: Folder) -> None:
+    """From archives of others, and files that are none."""
     lab = LABS["nodes"]
-    sabotaged.evidence(lab, ONE).rename(sabotaged.path / lab.name / "stranger.evidence")
-    said = " ".join(wrong_ones(sabotaged).values())
-    assert "is not there" in said and "no line tells of" in said
+    file = pack_anew(sabotaged, ONE, {"stranger": b"strange"})
+    (file.parent / "solution.evidence").write_bytes(b"old")
+    lines = sabotaged.lines(lab)
+    sabotaged.write(lab, lines, list(lines))
+    assert not wrong_ones(sabotaged)
+    sabotaged.write(lab, {}, list(lines))
+    assert not sabotaged.archives(lab).files()
+
+
+def test_a_line_whose_evidence_is_lost_is_measured_anew(
+    sabotaged: Folder, now: MeasuringCode
+) -> None:
+    """`--record` mends what `--kept` finds: all other lines stay."""
+    lab = LABS["nodes"]
+    before = sabotaged.lines(lab)
+    file, lost = in_one_archive(sabotaged)
+    one_byte_changed(file)
+    ProofRecorder(sabotaged, now).judge_anew([lab])
+    assert sabotaged.lines(lab).keys() == before.keys() - lost
+    stale = Proofs([lab], sabotaged, now).stale()
+    never = {name_in(lab, e.package) for e in stale if e.stale == "it was never measured"}
+    assert lost <= never
+    assert not file.exists() and not wrong_ones(sabotaged)
 
 
 def test_a_line_of_a_package_that_is_gone_is_found(sabotaged: Folder) -> None:

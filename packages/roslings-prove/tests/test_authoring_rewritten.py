@@ -21,7 +21,7 @@ from roslings.evidence import Evidence
 from roslings.verdict import CheckResult, Environment, Timings, Verdict
 from roslings.workspace.inspect import inspect_package
 from roslings_class.gradebook import gradebook
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_prove.new_lab import new_lab
 from roslings_prove.prove import Proof
 from roslings_prove.rewritten import Rewritten, Score, rewritten
@@ -133,6 +133,7 @@ def test_each_rewrite_is_shown() -> None:
         "all files into one",
         "other quotes in lines",
         "logger for print",
+        "a goal that sleeps",
     }
     assert set(REWRITES) - set(EXPECTED) == below
 
@@ -183,6 +184,31 @@ def logging(code: str, allowed: tuple[str, ...] = ("print() or get_logger()",)) 
     given = sources(beacon=code)
     free = replace(given, card=given.card.model_copy(update={"not_judged": allowed}))
     return REWRITES["logger for print"](free).texts["beacon/beacon.py"]
+
+
+def sleeping(solution: Sources) -> str:
+    """The server of the lab, as the rewrite makes it."""
+    return REWRITES["a goal that sleeps"](solution).texts["drive_to/drive_server.py"]
+
+
+def test_a_goal_sleeps_in_place_of_awaiting_a_tick() -> None:
+    """As day 5 once taught it: more threads, and neither a coroutine nor a timer is left."""
+    server = sleeping(Sources.read(lab("actions").solution, lab("actions").card))
+    compile(server, "drive_server", "exec")
+    assert "    def drive(self, goal_handle):" in server
+    assert "            time.sleep(PERIOD)" in server and "import time\n" in server
+    assert "rclpy.spin(DriveServer(), executor=MultiThreadedExecutor())" in server
+    assert not re.search(r"async|await|create_timer|tick", server)
+
+
+def test_a_goal_that_awaits_something_else_too_is_left_alone() -> None:
+    """Only a tick can become a sleep."""
+    solution = Sources.read(lab("actions").solution, lab("actions").card)
+    server = solution.texts["drive_to/drive_server.py"]
+    other = server.replace("        goal = goal", "        await self.ready\n        goal = goal")
+    assert other != server
+    texts = {**solution.texts, "drive_to/drive_server.py": other}
+    assert sleeping(replace(solution, texts=texts)) == other
 
 
 def test_one_file_becomes_three() -> None:
@@ -261,6 +287,7 @@ def test_values_are_noted_after_a_node_has_agreed() -> None:
     [
         ("a rate in a thread", TALKER.replace("0.1, self.talk", "0.1, self.talk, None")),
         ("a rate in a thread", TALKER.replace("self.create_timer", "self.create_wall")),
+        ("a rate in a thread", TALKER.replace("publisher.publish", "kept.set_result")),
         ("async callbacks", TALKER.replace("return self.g", "self.talk()\n        return self.g")),
         ("inlined", TALKER.replace("info(short(message.data))", "info(str(short))")),
         ("reentrant groups", TALKER.replace("Talker())", "Talker(), MultiThreadedExecutor())")),
@@ -350,7 +377,7 @@ def test_chance_is_the_same_each_time() -> None:
 # --- what comes of it --------------------------------------------------------------------------
 
 
-def result(points: int, name: str = "it") -> Result:
+def result(points: int, name: str = "it") -> GradingResult:
     """A result whose one check has so many of 100 points."""
     outcome = "pass" if points == 100 else "fail"
     check = CheckResult(
@@ -371,13 +398,15 @@ def result(points: int, name: str = "it") -> Result:
         seconds=Timings(total=1.0),
         environment=Environment.model_construct(),
     )
-    return Result(submission=name, digest="0", attempt=1, state="graded", verdict=verdict)
+    return GradingResult(submission=name, digest="0", attempt=1, state="graded", verdict=verdict)
 
 
 def test_who_loses_a_point_is_shown_with_what_was_rewritten() -> None:
     """The checks that fail, and the lines that are not as in the solution."""
     first, second, third, *_ = rewritten(EXAMPLE)
-    broken = Result(submission=third.name, digest="0", attempt=1, state="broken", reason="no room")
+    broken = GradingResult(
+        submission=third.name, digest="0", attempt=1, state="broken", reason="no room"
+    )
     results = {first.name: result(100), second.name: result(0), third.name: broken}
     told = list(_proofs(EXAMPLE, [first, second, third], results))
     proofs = [each for each in told if isinstance(each, Proof)]
@@ -425,7 +454,18 @@ def test_a_program_that_logs_its_lines_gets_all_points(tmp_path: Path) -> None:
     assert all(line.is_logged for line in process.lines)
 
 
-def kept(course: Path) -> dict[str, Result]:
+@pytest.mark.slow
+def test_a_goal_that_sleeps_gets_all_points(tmp_path: Path) -> None:
+    """For real: what day 5 once taught is right."""
+    (sleeps,) = (
+        each for each in rewritten(lab("actions")) if each.made.name == "a goal that sleeps"
+    )
+    done = checked("actions", sleeps.make(tmp_path), folder=tmp_path).ran
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "100 of 100" in done.stdout
+
+
+def kept(course: Path) -> dict[str, GradingResult]:
     """All results that stay in a course."""
     with gradebook(course / ".roslings" / "rewritten", "labs") as book:
         return book.latest()

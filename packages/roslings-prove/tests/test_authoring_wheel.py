@@ -22,13 +22,13 @@ from roslings_class.release import is_for_students, leaks
 from roslings_class.wheel import FOR_INSTRUCTORS, build_sdist
 from roslings_launcher import constraints, groups
 from roslings_launcher.installed import ARCHIVE
-from roslings_launcher.place import Place
+from roslings_launcher.place import CoursePlace
 from skips import needs
 from until_told import is_open, until_told
 
 pytestmark = pytest.mark.slow
 
-CLONE = Place(course.root())
+CLONE = CoursePlace(course.root())
 NAME = f"roslings-{__version__}-py3-none-any.whl"
 RUNS_A_CHECK = "ros,colcon,check"
 

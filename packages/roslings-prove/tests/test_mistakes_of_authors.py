@@ -11,7 +11,7 @@ import pytest
 
 from ros2_on_pip.errors import FAILED, INCONCLUSIVE
 from roslings.course import Lab
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_prove.new_lab import new_lab
 from roslings_prove.prove import AS_ABOVE, Solution, proof_of
 
@@ -74,7 +74,7 @@ def test_what_the_grader_did_is_told_once(tmp_path: Path, monkeypatch: pytest.Mo
     """It is wrong, and not open: to prove it again would tell the same."""
     monkeypatch.setenv("ROSLINGS_COURSE", str(tmp_path))
     package = Solution(new_lab("range-alarm", "alarm", "03-topics"))
-    result = Result(
+    result = GradingResult(
         submission=package.name,
         digest="",
         attempt=1,

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from roslings_rover.board import Board, Drive, LineReader, Mega
+from roslings_rover.board import Board, DriveCommand, LineReader, Mega
 from roslings_rover.board import attached as attached_module
 from roslings_rover.board.attached import (
     AttachedBoard,
@@ -47,7 +47,7 @@ def pass_until(chip: AttachedBoard, holds: Callable[[], bool]) -> bytes:
 def test_lines_pass_both_ways(board: Board) -> None:
     """The host hears the board's own lines; the board obeys the host."""
     with AttachedBoard(Path(board.name)) as chip:
-        chip.receive(Drive(7, 120, -120).line())
+        chip.receive(DriveCommand(7, 120, -120).line())
         said = pass_until(chip, lambda: bool(chip.applied))
         assert "A,7" in LineReader().feed(said)
         assert board.chip.applied[0].left_pwm == 120
@@ -56,7 +56,7 @@ def test_lines_pass_both_ways(board: Board) -> None:
 def test_what_is_true_is_what_the_board_tells(board: Board) -> None:
     """PWM by what it accepted, speed and pose by its encoders; by itself it stops."""
     with AttachedBoard(Path(board.name)) as chip:
-        chip.receive(Drive(1, 150, 150).line())
+        chip.receive(DriveCommand(1, 150, 150).line())
         pass_until(chip, lambda: chip.truth.left_pwm == 150)
         pass_until(chip, lambda: chip.truth.left_rad_s > 1 and chip.truth.pose.x_m > 0.02)
         pass_until(chip, lambda: chip.truth.left_pwm == 0 == chip.truth.left_rad_s)
@@ -67,7 +67,7 @@ def test_what_is_true_is_what_the_board_tells(board: Board) -> None:
 def test_a_command_that_the_board_refuses_is_not_applied(board: Board) -> None:
     """A wrong checksum, and then a good line that shows that time has passed."""
     with AttachedBoard(Path(board.name)) as chip:
-        chip.receive(b"$M,1,99,99*0000\n" + Drive(2, 50, 50).line())
+        chip.receive(b"$M,1,99,99*0000\n" + DriveCommand(2, 50, 50).line())
         pass_until(chip, lambda: bool(chip.applied))
         assert chip.applied[0].left_pwm == 50
         pass_until(chip, lambda: chip.counts.rejected == 1)

@@ -7,7 +7,7 @@ import pytest
 
 from roslings_rover.camera import ENCODINGS, Encoding, Frame, Light, NotAnImage, SyntheticCamera
 from roslings_rover.camera.frame import Pixels, frame_of
-from roslings_rover.rover import Ball, Box, Disc, Eye, Rover, World
+from roslings_rover.rover import Ball, Box, Disc, PinholeCameraModel, Rover, World
 
 QUIET = Light(noise=0.0)
 RED = Disc(u_px=200.0, v_px=300.0, radius_px=40.0, hue=0)
@@ -45,7 +45,7 @@ def test_grey_is_what_the_eye_weighs() -> None:
 @pytest.mark.parametrize("size", [(1, 1), (7, 5), (33, 17), (641, 479)])
 def test_odd_sizes_come_back_whole(encoding: Encoding, size: tuple[int, int]) -> None:
     """With idle bytes that no even number divides."""
-    camera = SyntheticCamera(Eye(*size), encoding=encoding, idle_bytes=3)
+    camera = SyntheticCamera(PinholeCameraModel(*size), encoding=encoding, idle_bytes=3)
     frame = camera.frame([RED])
     assert (frame.width, frame.height) == size
     assert frame.rgb().shape == (size[1], size[0], 3)

@@ -14,7 +14,7 @@ import pytest
 
 from roslings_rover.camera import Frame, SocketCamera
 from roslings_rover.camera.live import CameraTaken, NoPlaceForCamera, NoSuchLight, ball_at, run
-from roslings_rover.rover import Eye
+from roslings_rover.rover import PinholeCameraModel
 
 WIDTH, HEIGHT = 8, 4
 PICTURE_BYTES = WIDTH * HEIGHT * 3
@@ -116,12 +116,12 @@ def test_no_thread_is_left(tmp_path: Path) -> None:
 
 def test_the_ball_goes_round_and_stays_in_the_picture() -> None:
     """For a student who compares by eye."""
-    eye = Eye()
+    camera_model = PinholeCameraModel()
     for number in range(0, 600, 7):
-        ball = ball_at(number, 5, eye)
-        assert ball.radius_px < ball.u_px < eye.width_px - ball.radius_px
-        assert ball.radius_px < ball.v_px < eye.height_px - ball.radius_px
-    assert ball_at(0, 5, eye) != ball_at(150, 5, eye)
+        ball = ball_at(number, 5, camera_model)
+        assert ball.radius_px < ball.u_px < camera_model.width_px - ball.radius_px
+        assert ball.radius_px < ball.v_px < camera_model.height_px - ball.radius_px
+    assert ball_at(0, 5, camera_model) != ball_at(150, 5, camera_model)
 
 
 def test_a_name_that_is_taken_is_said(camera: SocketCamera, tmp_path: Path) -> None:

@@ -18,22 +18,22 @@ from roslings_rover.rover.moving_map import (
     place_under,
     shown_s,
 )
-from roslings_rover.rover.rover import Moment, Rover
+from roslings_rover.rover.rover import Rover, RoverMoment
 
 RADIUS_M = Body().radius_m
 
 
-def driven(*parts: tuple[float, float, float]) -> list[Moment]:
+def driven(*parts: tuple[float, float, float]) -> list[RoverMoment]:
     """The trail of a rover that drives each part: m/s, rad/s, seconds."""
     rover = Rover()
     for forward_m_s, turn_rad_s, seconds in parts:
         rover.drive(Motion(forward_m_s, turn_rad_s))
         for _ in range(round(seconds / 0.02)):
             rover.step(0.02)
-    return [*rover.trail, Moment(rover.time_s, rover.pose)]
+    return [*rover.trail, RoverMoment(rover.time_s, rover.pose)]
 
 
-def svg_of(trail: list[Moment], **how: bool) -> str:
+def svg_of(trail: list[RoverMoment], **how: bool) -> str:
     """The map of a trail in the course's room."""
     return moving_map(default_world(), trail, RADIUS_M, **how)
 
@@ -96,7 +96,7 @@ def test_a_rest_is_cut_short() -> None:
 
 def test_who_never_moved_just_stands() -> None:
     """No animation at all; and without a moment there is no map."""
-    svg = svg_of([Moment(at_s, Pose(1.0, 1.0, math.pi / 2)) for at_s in (0.0, 0.3)])
+    svg = svg_of([RoverMoment(at_s, Pose(1.0, 1.0, math.pi / 2)) for at_s in (0.0, 0.3)])
     assert "@keyframes" not in svg and 'class="rover" transform="translate(209.0 349.0)' in svg
     with pytest.raises(ValueError, match="one moment"):
         svg_of([])
@@ -104,7 +104,7 @@ def test_who_never_moved_just_stands() -> None:
 
 def test_places_are_marked_where_asked() -> None:
     """A dot for each, as a list of odometry has them."""
-    trail = [Moment(0.1 * i, Pose(0.2 * i, 0.1 * i)) for i in range(9)]
+    trail = [RoverMoment(0.1 * i, Pose(0.2 * i, 0.1 * i)) for i in range(9)]
     assert svg_of(trail, dots=True).count('r="2.4"') == 9
     assert 'r="2.4"' not in svg_of(trail)
 

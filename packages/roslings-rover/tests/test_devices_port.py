@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from program import environment, run, running, until
 
-from roslings_rover.board import Board, Drive, LineReader, Mega, Spoiler, framed
+from roslings_rover.board import Board, DriveCommand, LineReader, Mega, Spoiler, framed
 from roslings_rover.board.wire import HELD_S, Wire
 from roslings_rover.rover import Box, Rover, World
 from skips import imported
@@ -35,13 +35,13 @@ def opened(board: Board) -> serial.Serial:
 def test_lines_arrive_and_commands_are_obeyed(board: Board) -> None:
     """Both ways through a real pseudo-terminal."""
     with opened(board) as host:
-        host.write(Drive(5, 100, 50).line())
+        host.write(DriveCommand(5, 100, 50).line())
         board.step(0.2)
         bodies = LineReader().feed(host.read(4096))
     assert bodies[0] == "A,5"
     assert bodies[1].startswith("W,0,20,")
     assert (board.chip.truth.left_pwm, board.chip.truth.right_pwm) == (100, 50)
-    assert [chunk.content for chunk in board.heard] == [Drive(5, 100, 50).line()]
+    assert [chunk.content for chunk in board.heard] == [DriveCommand(5, 100, 50).line()]
 
 
 def test_what_nobody_reads_is_lost_and_the_board_goes_on(board: Board) -> None:
@@ -204,7 +204,7 @@ def test_the_board_knows_the_speed_that_the_host_asked_for(board: Board) -> None
 
 # --- what can go wrong on the cable ------------------------------------------------------------
 
-LINES = [Drive(i, i % 256, -i % 256).line() for i in range(500)]
+LINES = [DriveCommand(i, i % 256, -i % 256).line() for i in range(500)]
 
 
 def through(spoil: Spoiler) -> tuple[list[str], int]:
@@ -270,7 +270,7 @@ def test_the_board_runs_as_a_command(tmp_path: Path) -> None:
         with serial.Serial(str(port), 115200, timeout=30, exclusive=True) as host:
 
             def is_obeyed() -> bool:
-                host.write(Drive(1, 100, 100).line())
+                host.write(DriveCommand(1, 100, 100).line())
                 assert host.read(20), "the board sends nothing"
                 return "100" in "".join(program.lines[2:])
 

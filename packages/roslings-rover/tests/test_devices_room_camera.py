@@ -17,13 +17,13 @@ from roslings_rover.camera.room_camera import (
 )
 from roslings_rover.camera.scene import WALL_RGB
 from roslings_rover.models.differential_drive import Pose
-from roslings_rover.models.pinhole import Eye
+from roslings_rover.models.pinhole import PinholeCameraModel
 from roslings_rover.models.rooms import MovingWorld
 from roslings_rover.models.world import Ball, Box, Circle, World
 from roslings_rover.rover.rover import Rover
 
 ROOM = Box(-5.0, -5.0, 5.0, 5.0)
-EYE = Eye()
+EYE = PinholeCameraModel()
 QUIET = Light(noise=0.0)
 COLOURS = {"box": BOX_RGB, "round": ROUND_RGB, "moving": MOVING_RGB, "wall": WALL_RGB}
 

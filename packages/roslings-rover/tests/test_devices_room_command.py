@@ -16,14 +16,14 @@ from ros2_on_pip.domain_lease import leased_domain
 from roslings_rover.models.differential_drive import Motion
 from roslings_rover.models.rooms import SEEDS, MovingWorld, SeededRoom, moving_in, room_of
 from roslings_rover.models.world import Box, Circle, World
-from roslings_rover.rover.displays import Window
+from roslings_rover.rover.displays import RoverMapWindow
 from roslings_rover.rover.in_room import RoomRover
 from roslings_rover.rover.made import rover_in
 from roslings_rover.rover.moving_map import moving_map
 from roslings_rover.rover.picture import MOVING, save
 from roslings_rover.rover.room_markers import markers_of_moving, markers_of_room, world_in
 from roslings_rover.rover.room_node import RoomNode, node_for
-from roslings_rover.rover.rover import Moment, Rover
+from roslings_rover.rover.rover import Rover, RoverMoment
 from roslings_rover.rover.text_map import ASCII, UNICODE, text_map
 from roslings_rover.rover.words import below, beside
 
@@ -181,11 +181,11 @@ def test_the_map_of_a_page_shows_what_moves() -> None:
     """Where it is now, and in the legend; in the course's own room nothing is added."""
     rover = RoomRover(room_of(SEED))
     rover.step(20.0)
-    drawn = moving_map(rover.world, [Moment(0.0, rover.pose)], 0.12)
+    drawn = moving_map(rover.world, [RoverMoment(0.0, rover.pose)], 0.12)
     things = moving_in(rover.world)
     assert things != moving_in(room_of(SEED).at_first)
     assert drawn.count('fill="#c2571a"') == len(things) + 1 and ">moves<" in drawn
-    assert ">moves<" not in moving_map(Rover().world, [Moment(0.0, rover.pose)], 0.12)
+    assert ">moves<" not in moving_map(Rover().world, [RoverMoment(0.0, rover.pose)], 0.12)
 
 
 def test_the_picture_of_a_room_is_drawn(tmp_path: Path) -> None:
@@ -268,7 +268,7 @@ def test_the_window_moves_what_moves() -> None:
     plt.switch_backend("agg")  # the same window, which nobody sees
     node = RoomNode(RoomRover(room_of(SEED)))
     tracks = len(room_of(SEED).tracks)
-    with Window(node) as window:
+    with RoverMapWindow(node) as window:
         seen = []
         for _ in range(3):
             window.show(node)
@@ -282,7 +282,7 @@ def test_the_window_moves_what_moves() -> None:
         assert window._parts == last
 
 
-def _discs_in(window: Window) -> list[tuple[float, float]]:
+def _discs_in(window: RoverMapWindow) -> list[tuple[float, float]]:
     from matplotlib.colors import to_rgba
     from matplotlib.patches import Circle as Disc
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import math
 import os
 import re
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,8 +18,9 @@ from rosbags.highlevel import AnyReader
 from ros2_on_pip.domain_lease import leased_domain
 from roslings_rover.remembered import has_reached_a_ball, remember_the_ball
 from roslings_rover.rover import Ball, Box, Circle, Motion, Pose, Rover, World
-from roslings_rover.rover.displays import Terminal
+from roslings_rover.rover.displays import Lines, Terminal
 from roslings_rover.rover.driven import LEAVES_M, DrivenRover
+from roslings_rover.rover.map_display import shown_until
 from roslings_rover.rover.node import RoverNode
 from roslings_rover.rover.text_map import ASCII, UNICODE, text_map
 from roslings_rover.rover.words import about_tf, below, beside, position
@@ -223,6 +226,53 @@ def test_nothing_is_minus_nothing() -> None:
     assert position(RoverNode(rover)).startswith("x -0.25 m, y -1.00 m, heading -90 degrees")
 
 
+def test_a_pipe_is_told_what_is_news() -> None:
+    """A line when the rover has moved, and none as long as it stands."""
+    node, out = DrivenRover(Rover()), io.StringIO()
+    lines = Lines(node, out)
+    lines.show(node)
+    begun = out.getvalue()
+    assert position(node) in begun
+    lines.show(node)
+    assert out.getvalue() == begun
+    node.rover.pose = Pose(0.5, 0.0, 0.0)
+    lines.show(node)
+    assert out.getvalue().removeprefix(begun).splitlines() == [position(node)]
+
+
+class Closed:
+    """A display that somebody closes after some pictures."""
+
+    every_s = 0.0
+
+    def __init__(self, after: int) -> None:
+        self._left, self.shown = after, list[int]()
+
+    @property
+    def closed(self) -> bool:
+        """No more pictures are wanted."""
+        return not self._left
+
+    def show(self, node: list[int]) -> None:
+        """What there is now."""
+        self._left -= 1
+        self.shown.append(len(node))
+
+
+@pytest.mark.parametrize(("asked_after", "closed_after"), [(3, 9), (9, 3)])
+def test_it_ends_when_it_is_asked_to_or_closed(asked_after: int, closed_after: int) -> None:
+    """Each turn is shown, the last one too; after that there is none."""
+    turns, asked, display = list[int](), threading.Event(), Closed(closed_after)
+
+    def turn() -> None:
+        turns.append(1)
+        if len(turns) == asked_after:
+            asked.set()
+
+    shown_until(asked, display, turns, turn)
+    assert display.shown == [1, 2, 3]
+
+
 def test_a_touch_counts_until_the_rover_has_left() -> None:
     """The word stays when nobody pushes any more; it goes with the rover."""
     rover = Rover()
@@ -286,8 +336,6 @@ def test_a_notebook_sees_the_map_and_ends_the_node(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """A drawing for the cell, and no thread left."""
-    import threading
-
     from roslings_rover.rover.notebook import start
 
     with leased_domain() as domain:

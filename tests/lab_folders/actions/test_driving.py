@@ -1,4 +1,4 @@
-"""The robot of experiments: it does what it was told last, and gives up waiting for one."""
+"""The robot of experiments: it does what it was told last, for a while, and is given up on."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from typing import cast
 import pytest
 
 from graders.actions import act as acting
-from graders.actions.floor import FLOOR, Robot, start_near
+from graders.actions.floor import COMMAND_LASTS_S, FLOOR, Robot, start_near
 from ros2_on_pip.domain_lease import leased_domain
 from roslings.capabilities.robot.record import RobotSeen
+from roslings.course import lab
 from roslings.evidence import Endpoint, ExperimentSeen, Qos
 from roslings.experiment.scene import Scene
 from roslings.probe import Probe
@@ -34,27 +35,66 @@ def probe(monkeypatch: pytest.MonkeyPatch) -> Iterator[Probe]:
 
 
 def test_it_does_what_it_was_told_last(probe: Probe) -> None:
-    """For ever; what is no number it leaves aside."""
+    """Until the next command; what is no number it leaves aside."""
     from geometry_msgs.msg import Twist
 
-    voice = probe.eye.create_publisher(Twist, "/speed", 10)
+    publisher = probe.node.create_publisher(Twist, "/speed", 10)
     with Robot(probe, Rover(FLOOR, Pose(1.0, 2.0))) as robot:
         robot.listen_to("/speed", TWIST)
-        assert probe.until(lambda: voice.get_subscription_count() > 0, WITHIN_S)
+        assert probe.until(lambda: publisher.get_subscription_count() > 0, WITHIN_S)
         faster = Twist()
         faster.linear.x = 0.5
-        voice.publish(faster)
+        publisher.publish(faster)
         assert probe.until(lambda: robot.distance_to(1.0, 2.0) > 0.2, WITHIN_S)
-        faster.linear.x = math.nan
-        voice.publish(faster)
-        assert probe.until(lambda: robot.distance_to(1.0, 2.0) > 0.4, WITHIN_S)
-        voice.publish(Twist())
+        wrong = Twist()
+        wrong.linear.x = math.nan
+
+        def drives_on() -> bool:
+            publisher.publish(faster)
+            publisher.publish(wrong)
+            return robot.distance_to(1.0, 2.0) > 0.4
+
+        assert probe.until(drives_on, WITHIN_S)
+        publisher.publish(Twist())
         assert probe.until(lambda: robot.stands, WITHIN_S)
     drive = probe.seen.part(RobotSeen).drive
     assert drive is not None
-    assert [c.forward_m_s for c in drive.commands] == [0.5, 0.0]
+    assert {c.forward_m_s for c in drive.commands[:-1]} == {0.5}
+    assert drive.commands[-1].forward_m_s == 0.0
     assert drive.path[0].x_m == pytest.approx(1.0, abs=0.2)
     assert drive.path[-1].x_m == pytest.approx(robot.pose.x_m, abs=0.02)
+
+
+@pytest.mark.parametrize("ended_by", ["silence", "nan"])
+def test_it_stops_by_itself_when_commands_cease(probe: Probe, ended_by: str) -> None:
+    """A node that Ctrl-C ended says nothing any more; a speed that is no number is no command."""
+    from geometry_msgs.msg import Twist
+
+    publisher = probe.node.create_publisher(Twist, "/speed", 10)
+    wrong = Twist()
+    wrong.linear.x = math.nan
+    with Robot(probe, Rover(FLOOR)) as robot:
+        robot.listen_to("/speed", TWIST)
+        assert probe.until(lambda: publisher.get_subscription_count() > 0, WITHIN_S)
+        command = Twist()
+        command.linear.x = 0.5
+        publisher.publish(command)
+        assert probe.until(lambda: not robot.stands, WITHIN_S)
+
+        def stands() -> bool:
+            if ended_by == "nan":
+                publisher.publish(wrong)
+            return robot.stands
+
+        assert probe.until(stands, WITHIN_S)
+    drive = probe.seen.part(RobotSeen).drive
+    assert drive is not None and [c.forward_m_s for c in drive.commands] == [0.5]
+
+
+def test_the_card_says_how_long_a_command_lasts() -> None:
+    """Who writes the loop reads it there, and in the task."""
+    (commands,) = lab("actions").card.node("drive_server").publishes
+    assert f"no command for {COMMAND_LASTS_S:g} s stops it" in commands.about
 
 
 @pytest.mark.parametrize("reliability", ["reliable", "best_effort"])
@@ -67,8 +107,8 @@ def test_a_node_knows_where_it_is_when_its_reader_got_a_message(
 
     heard: list[Odometry] = []
     quality = QoSProfile(depth=10, reliability=ReliabilityPolicy[reliability.upper()])
-    probe.eye.create_subscription(Odometry, "/odom", heard.append, quality)
-    ear = Endpoint(
+    probe.node.create_subscription(Odometry, "/odom", heard.append, quality)
+    subscription = Endpoint(
         kind="subscription",
         node="/it",
         topic="/odom",
@@ -78,7 +118,7 @@ def test_a_node_knows_where_it_is_when_its_reader_got_a_message(
     )
     with Robot(probe, Rover(FLOOR)) as robot:
         assert not robot.is_known
-        robot.speak_to(ear)
+        robot.speak_to(subscription)
         assert probe.until(lambda: robot.is_known, WITHIN_S)
         assert probe.until(lambda: bool(heard), WITHIN_S)
 

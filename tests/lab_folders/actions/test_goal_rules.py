@@ -31,9 +31,9 @@ from roslings.capabilities.actions.record import (
     answer_to,
     cancelled_after_s,
 )
-from roslings.capabilities.robot.record import CommandSeen, DriveSeen, PoseSeen
+from roslings.capabilities.robot.record import CommandSeen, PoseSeen, RobotDriveSeen
 from roslings.course import NodeContract, RateContract
-from roslings.evidence import HeldUp, LogLine, MessageSeen, ProcessSeen, TopicSeen
+from roslings.evidence import HeldUpSeen, LogLine, MessageSeen, ProcessSeen, TopicSeen
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge import ExperimentView, Inconclusive
 from roslings.judge.faults import NothingToJudge
@@ -103,7 +103,7 @@ def flight(
     """An experiment with these goals."""
     written = [LogLine(arrival_ns=0, text=text, source="terminal") for text in lines]
     bird = ProcessSeen(executable="bird", started_ns=0, lines=written)
-    drive = DriveSeen(path=STRAIGHT, commands=list(commands))
+    drive = RobotDriveSeen(path=STRAIGHT, commands=list(commands))
     return ExperimentView(
         seen_with(
             name="x",
@@ -135,7 +135,7 @@ def test_when_a_robot_was_told_to_stop(
     commands: list[tuple[float, float]], wanted_s: float | None
 ) -> None:
     """The first zero after which nothing else came."""
-    drive = DriveSeen(commands=[command(*each) for each in commands])
+    drive = RobotDriveSeen(commands=[command(*each) for each in commands])
     found_s = stopped_after_s(cancelled(0.1), drive)
     assert found_s == (wanted_s if wanted_s is None else pytest.approx(wanted_s))
 
@@ -387,6 +387,7 @@ def test_a_loop_without_a_pause_is_told_on_any_computer() -> None:
     with pytest.raises(faults.NeverRests) as fault:
         turning(800.0).must(demand)
     assert fault.value.measured == "800 times a second: the loop never waits"
+    assert "`await self.tick`" in fault.value.mend and "every 0.1 s" in fault.value.mend
     assert "time.sleep(0.1)" in fault.value.mend
     turning(20.0).must(demand)
 
@@ -397,7 +398,7 @@ def test_a_loop_without_a_pause_is_told_on_any_computer() -> None:
 def held_up(part: str, held_s: float, demand: Any, fault: type[Exception], **seen: Any) -> bool:
     """Whether the fault is told of an experiment that was held up; else nobody can tell."""
     process = ProcessSeen(executable="bird", started_ns=0)
-    held = {part: HeldUp(cpu_wait_s=held_s, stall_s=0.0)}
+    held = {part: HeldUpSeen(cpu_wait_s=held_s, stall_s=0.0)}
     words = {"processes": {"bird": process}, "held_up": held, **seen}
     view = ExperimentView(seen_with(name="x", clock="wall", **words))
     with pytest.raises((fault, Inconclusive)) as raised:

@@ -14,8 +14,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from graders.black_box.act import holding
+from graders.black_box.contract import BagWords
 from graders.black_box.record import BagGiven, BagsSeen
 from roslings.course import Lab
+from roslings.course import written as said
 from roslings.evidence import (
     BuildSeen,
     Evidence,
@@ -45,7 +47,8 @@ class Bags:
     """The bags of one grading, for many packages."""
 
     def __init__(self, lab: Lab, folder: Path, seed: int = 7) -> None:
-        self.lab, self._folder, self._reader = lab, folder, lab.card.reads_bags
+        self.lab, self._folder = lab, folder
+        self._reader = said(lab.card.of(BagWords).reads_bags, lab.name)
         self._known: dict[str, dict[str, ExperimentSeen]] = {}
         first, other = self._reader.storages
         drives = [

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from graders.black_box import demands, diagnosis, faults
+from graders.black_box.contract import BagWords
 from graders.black_box.record import (
     BagGiven,
     BagsSeen,
@@ -16,6 +17,7 @@ from graders.black_box.record import (
     TopicHeld,
 )
 from roslings.course import lab
+from roslings.course import written as said
 from roslings.evidence import ExperimentSeen, LogLine, PackageSeen, ProcessSeen
 from roslings.judge import ExperimentView, Fault
 from roslings.judge.views import PackageView
@@ -23,7 +25,8 @@ from roslings_rover.models.drives.sick_rover import sick_rover
 from ways_to_write import WAYS, written
 
 CARD = lab("black-box").card
-READER, DIAGNOSIS = CARD.reads_bags, CARD.diagnosis
+READER = said(CARD.of(BagWords).reads_bags, CARD.package)
+DIAGNOSIS = said(CARD.of(BagWords).diagnosis, CARD.package)
 PATH = "/w/devices/missing_amber"
 HELD = DriveHeld(
     duration_s=20.0,

@@ -12,13 +12,14 @@ from statistics import mean
 import pytest
 
 from graders.black_box import diagnosis
-from roslings.course import lab, root
+from graders.black_box.contract import BagWords
+from roslings.course import lab, root, written
 from roslings_rover.models.drives.faults import FAULTS
-from roslings_rover.models.drives.recording import NS, Said, TopicPlan, of_topic
+from roslings_rover.models.drives.recording import NS, RecordedMessage, TopicPlan, of_topic
 from roslings_rover.models.drives.sheet import SHEET
 from roslings_rover.models.drives.sick_rover import (
     PLANTED,
-    NoName,
+    NotARoverName,
     Planted,
     SickRover,
     may_be,
@@ -35,7 +36,7 @@ def rover_of(name: str) -> SickRover:
     return sick_rover(name)
 
 
-def planted_in(fault: str) -> Iterator[tuple[Planted, TopicPlan, list[Said]]]:
+def planted_in(fault: str) -> Iterator[tuple[Planted, TopicPlan, list[RecordedMessage]]]:
     """The fault in each rover that has it, with the messages of its topic."""
     for name in NAMES:
         rover = rover_of(name)
@@ -67,7 +68,7 @@ def test_it_stays_as_it_was_written_down() -> None:
 @pytest.mark.parametrize("name", ["", " ", "?", "x"])
 def test_no_name_has_no_rover(name: str) -> None:
     """Two letters at least."""
-    with pytest.raises(NoName):
+    with pytest.raises(NotARoverName):
         sick_rover(name)
 
 
@@ -81,7 +82,7 @@ def test_each_has_five_faults_in_five_topics() -> None:
 
 def test_one_diagnosis_does_not_fit_another_rover() -> None:
     """Copied from the neighbour, it earns nothing, or next to nothing."""
-    within = lab("black-box").card.diagnosis.number_within
+    within = written(lab("black-box").card.of(BagWords).diagnosis, "black-box").number_within
     nets = []
     for mine, theirs in pairwise(NAMES):
         copied = tuple(

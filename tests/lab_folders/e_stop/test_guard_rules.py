@@ -20,7 +20,7 @@ from roslings.evidence import (
     Evidence,
     ExperimentSeen,
     GraphSeen,
-    HeldUp,
+    HeldUpSeen,
     LogLine,
     MachineSeen,
     MessageSeen,
@@ -68,11 +68,13 @@ def moves(*stretches: tuple[float, float, dict[str, float]]) -> list[MoveSeen]:
 
 
 def found(demand: Callable[[ExperimentView], None], seen: ExperimentView) -> type[Exception] | None:
-    """What a demand raises."""
+    """What a demand raises: which fault, or that it gives no answer."""
     try:
         demand(seen)
-    except (Fault, Inconclusive, NothingToJudge) as problem:
+    except Fault as problem:
         return type(problem)
+    except (Inconclusive, NothingToJudge) as reason:
+        return Inconclusive if isinstance(reason, Inconclusive) else NothingToJudge
     return None
 
 
@@ -126,7 +128,7 @@ def driven(seen: list[MoveSeen], sent_s: float = 0.05, held_s: float = 0.0) -> E
     """From 1 s to 3 s nothing speaks against driving; commands come every `sent_s`."""
     drive = DriveSeen(part="a", after="at first", command=COMMAND, began_ns=S, until_ns=3 * S)
     sent = [S + int(n * sent_s * S) for n in range(int(2 / sent_s))]
-    held = {"a": HeldUp(cpu_wait_s=held_s, stall_s=0.0)}
+    held = {"a": HeldUpSeen(cpu_wait_s=held_s, stall_s=0.0)}
     return view(EStopSeen(drives=[drive], moves=seen, sent_ns=sent), held_up=held, patience_s=1.0)
 
 
@@ -173,7 +175,7 @@ def stopped(seen: list[MoveSeen], held_s: float = 0.0, sent_s: float = 0.0) -> E
     stop = StopSeen(
         part="shut", reason="shut", cause="the door opens", began_ns=2 * S, until_ns=4 * S
     )
-    held = {"shut": HeldUp(cpu_wait_s=held_s, stall_s=0.0)}
+    held = {"shut": HeldUpSeen(cpu_wait_s=held_s, stall_s=0.0)}
     return view(EStopSeen(stops=[stop], moves=seen, sent_ns=sent), held_up=held)
 
 

@@ -24,7 +24,7 @@ from roslings.course import NodeContract, TopicContract
 from roslings.evidence import (
     Endpoint,
     GraphSeen,
-    HeldUp,
+    HeldUpSeen,
     LogLine,
     MessageSeen,
     ProcessSeen,
@@ -263,7 +263,7 @@ def test_a_bad_picture_is_told_of_once(count: int, way: str) -> None:
 def test_a_picture_without_an_answer(held_s: float, is_told: bool) -> None:
     """It was shown, and the node had its time, or this computer took it."""
     view = looking([shown(1, answered=False, turned=False)], [])
-    view.seen.held_up["ball"] = HeldUp(cpu_wait_s=held_s, stall_s=0.0)
+    view.seen.held_up["ball"] = HeldUpSeen(cpu_wait_s=held_s, stall_s=0.0)
     with pytest.raises((faults.TooSlowForPictures, Inconclusive)) as raised:
         view.must(FINDS)
     assert isinstance(raised.value, Fault) is is_told

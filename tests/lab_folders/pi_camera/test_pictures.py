@@ -15,10 +15,12 @@ from roslings.capabilities.camera.pixels import MarkLooker
 from roslings.capabilities.camera.record import CameraSeen, PixelsSeen
 from roslings.evidence import ExperimentSeen
 from roslings_rover.camera import Frame, Light, SyntheticCamera
-from roslings_rover.rover import Disc, Eye
+from roslings_rover.rover import Disc, PinholeCameraModel
 
 BALL = Disc(60.0, 50.0, 15.0, hue=5)
-SHOWN = SyntheticCamera(Eye(160, 120), Light(noise=6.0), "bgr8", seed=0).frame([BALL])
+SHOWN = SyntheticCamera(PinholeCameraModel(160, 120), Light(noise=6.0), "bgr8", seed=0).frame(
+    [BALL]
+)
 
 
 def message(frame: Frame, **other: Any) -> Any:

@@ -1,13 +1,10 @@
 """A charger: a node called charger. It performs the action /charge, of the type
 rover_interfaces/action/Charge, and stops when somebody cancels the goal."""
 
-import time
-
 import rclpy
 from rclpy.action import ActionServer, CancelResponse
-from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
+from rclpy.task import Future
 from rover_interfaces.action import Charge
 
 
@@ -18,15 +15,20 @@ class Charger(Node):
         self.server = ActionServer(
             self, Charge, "charge", self.fill,
             cancel_callback=lambda _: CancelResponse.ACCEPT,
-            callback_group=ReentrantCallbackGroup(),
         )
+        self.tick = Future()
+        self.create_timer(0.04, self.next_tick)
 
-    def fill(self, goal_handle):
+    def next_tick(self):
+        tick, self.tick = self.tick, Future()
+        tick.set_result(None)
+
+    async def fill(self, goal_handle):
         while self.level < goal_handle.request.target:
             if goal_handle.is_cancel_requested:
                 goal_handle.canceled()
                 return Charge.Result(level=self.level)
-            time.sleep(0.04)
+            await self.tick
             self.level += 2.0
             goal_handle.publish_feedback(Charge.Feedback(level=self.level))
         goal_handle.succeed()
@@ -35,7 +37,7 @@ class Charger(Node):
 
 def main():
     rclpy.init()
-    rclpy.spin(Charger(), MultiThreadedExecutor(num_threads=2))
+    rclpy.spin(Charger())
 
 
 main()

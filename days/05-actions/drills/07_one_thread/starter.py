@@ -5,9 +5,8 @@ import time
 
 import rclpy
 from rclpy.action import ActionServer, CancelResponse
-from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
+from rclpy.task import Future
 from rover_interfaces.action import Charge
 
 
@@ -18,8 +17,13 @@ class Charger(Node):
         self.server = ActionServer(
             self, Charge, "charge", self.fill,
             cancel_callback=lambda _: CancelResponse.ACCEPT,
-            callback_group=ReentrantCallbackGroup(),
         )
+        self.tick = Future()
+        self.create_timer(0.04, self.next_tick)
+
+    def next_tick(self):
+        tick, self.tick = self.tick, Future()
+        tick.set_result(None)
 
     def fill(self, goal_handle):
         while self.level < goal_handle.request.target:
@@ -35,7 +39,7 @@ class Charger(Node):
 
 def main():
     rclpy.init()
-    rclpy.spin(Charger(), MultiThreadedExecutor(num_threads=1))
+    rclpy.spin(Charger())
 
 
 main()

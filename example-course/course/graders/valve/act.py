@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from graders.valve.contract import LifecycleWords
 from graders.valve.record import LifecycleSeen, StepSeen
 
 from ros2_on_pip.near_names import nearest
@@ -19,7 +20,7 @@ CHANGE, GET = "lifecycle_msgs/srv/ChangeState", "lifecycle_msgs/srv/GetState"
 def walk(scene: Scene, node: NodeContract) -> None:
     """Ask the node, or the nearest to it, for each transition of the card, in its order."""
     near = nearest(node.node, scene.seen.graph.nodes)
-    for step in node.lifecycle if near else ():
+    for step in node.of(LifecycleWords).lifecycle if near else ():
         assert near is not None
         seen = StepSeen(node=near.found, transition=step.transition)
         scene.seen.recording(LifecycleSeen).steps.append(seen)

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected, Stimulus
-
-if TYPE_CHECKING:
-    from roslings.course import NodeContract
+from roslings.course.contract import Contract, Expected, NodeWords, Stimulus
 
 Transition = Literal["configure", "activate", "deactivate", "cleanup", "shutdown"]
 State = Literal["unconfigured", "inactive", "active", "finalized"]
@@ -22,13 +19,13 @@ class StepContract(Contract):
     state: Annotated[State, Expected]
 
 
-class LifecycleWords(Contract):
+class LifecycleWords(NodeWords):
     """What a card may say of a node."""
 
     lifecycle: tuple[StepContract, ...] = ()
 
 
-def rows(node: NodeContract) -> Iterable[Row]:
+def rows(node: LifecycleWords) -> Iterable[Row]:
     """Each transition, in its order, and where it leads."""
     for step in node.lifecycle:
         yield f"asked to {step.transition}", f"its state is then `{step.state}`"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from graders.valve import faults
+from graders.valve.contract import LifecycleWords
 from graders.valve.record import LifecycleSeen, StepSeen
 
 from roslings.course import NodeContract
@@ -27,7 +28,8 @@ def go_through(node: NodeContract) -> Demand[ExperimentView]:
     """After each transition the node is in the card's state."""
 
     def demand(experiment: ExperimentView) -> None:
-        for wanted, seen in zip(node.lifecycle, _steps(experiment), strict=False):
+        asked = node.of(LifecycleWords).lifecycle
+        for wanted, seen in zip(asked, _steps(experiment), strict=False):
             if seen.state is None:
                 raise NothingToJudge("it did not tell its state")
             if seen.state != wanted.state:

@@ -14,15 +14,16 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn, TextIO
 
-from ros_doctor import typed
+from ros_doctor import usage
 from ros_doctor.document import document
 from ros_doctor.examine import Examination, examine
 from ros_doctor.finding import Status
-from ros_doctor.machine import Machine, exists, this_machine
+from ros_doctor.machine import ExaminedMachine, exists, this_machine
 from ros_doctor.pages import page_of
 from ros_doctor.redact import redacted
-from ros_doctor.registry import Check, UnknownCheck, all_checks, find_check
+from ros_doctor.registry import DoctorCheck, UnknownCheck, all_checks, find_check
 from ros_doctor.screen import Paint, explain_lines, lines_of, list_lines
+from ros_doctor.texts import either, said
 
 NO_FAULT, FAULT, WRONG_USE = 0, 1, 2
 
@@ -53,7 +54,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
-        raise WrongUse(f"{message}. Type {_typed(self.prog)} --help to see all words.")
+        text = "{message}. Type {command} to see all words."
+        command = f"{_typed(self.prog)} --help"
+        raise WrongUse(said("doctor.wrong_words", text, message=message, command=command))
 
 
 def look(argv: Sequence[str]) -> Examination:
@@ -63,8 +66,8 @@ def look(argv: Sequence[str]) -> Examination:
     return _looked(words, _meant(words, machine))
 
 
-def _program(machine: Machine) -> str:
-    return typed.doctor(machine).removeprefix("./")
+def _program(machine: ExaminedMachine) -> str:
+    return usage.doctor(machine).removeprefix("./")
 
 
 def _typed(program: str) -> str:
@@ -92,7 +95,7 @@ def words_parser(prog: str) -> argparse.ArgumentParser:
     return parser
 
 
-def _run(words: argparse.Namespace, machine: Machine) -> int:
+def _run(words: argparse.Namespace, machine: ExaminedMachine) -> int:
     if words.list:
         _print(list_lines(all_checks()))
         return NO_FAULT
@@ -102,14 +105,14 @@ def _run(words: argparse.Namespace, machine: Machine) -> int:
     return _code(_looked(words, machine))
 
 
-def _meant(words: argparse.Namespace, machine: Machine) -> Machine:
+def _meant(words: argparse.Namespace, machine: ExaminedMachine) -> ExaminedMachine:
     """The machine with the workspace that the words name."""
     if words.workspace is None:
         return machine
     return replace(machine, workspace=workspace_root(words.workspace))
 
 
-def _looked(words: argparse.Namespace, machine: Machine) -> Examination:
+def _looked(words: argparse.Namespace, machine: ExaminedMachine) -> Examination:
     seen = examine(machine, _chosen(words.only, machine))
     shown = redacted(seen) if words.redact else seen
     if words.json:
@@ -119,24 +122,26 @@ def _looked(words: argparse.Namespace, machine: Machine) -> Examination:
     return seen
 
 
-def _chosen(ids: list[str] | None, machine: Machine) -> list[Check]:
+def _chosen(ids: list[str] | None, machine: ExaminedMachine) -> list[DoctorCheck]:
     if not ids:
         return list(all_checks())
     wanted = [_named(one, machine) for text in ids for one in text.split(",") if one]
     return [check for check in all_checks() if check in wanted]
 
 
-def _named(id: str, machine: Machine) -> Check:
+def _named(id: str, machine: ExaminedMachine) -> DoctorCheck:
     try:
         return find_check(id)
     except UnknownCheck as problem:
-        near = f" Is it {' or '.join(problem.near)}?" if problem.near else ""
-        raise WrongUse(
-            f"there is no check '{id}'.{near} Type {typed.doctor(machine)} --list to see them all."
-        ) from problem
+        near = said("doctor.near", " Is it {names}?", names=either(problem.near))
+        text = "there is no check '{name}'.{near} Type {command} to see them all."
+        command = f"{usage.doctor(machine)} --list"
+        near = near if problem.near else ""
+        told = said("doctor.no_check", text, name=id, near=near, command=command)
+        raise WrongUse(told) from problem
 
 
-def _explain(words: argparse.Namespace, machine: Machine) -> int:
+def _explain(words: argparse.Namespace, machine: ExaminedMachine) -> int:
     check = _named(words.explain, machine)
     seen = examine(machine, [check])
     shown = redacted(seen) if words.redact else seen
@@ -157,14 +162,15 @@ def workspace_root(path: Path) -> Path:
     """
     root = Path(os.path.abspath(path.expanduser()))  # noqa: PTH100  resolve() would follow links
     if not root.is_dir():
-        raise WrongUse(f"there is no folder {path}. Give the folder that holds src.")
+        text = "there is no folder {path}. Give the folder that holds src."
+        raise WrongUse(said("doctor.no_folder", text, path=path))
     for folder in (root, *root.parents):
         if folder.name == "src" and (folder == root or exists(root / "package.xml")):
             return folder.parent
     return root
 
 
-def colourful(stream: TextIO, machine: Machine) -> bool:
+def colourful(stream: TextIO, machine: ExaminedMachine) -> bool:
     """Tell whether to use colours: on a terminal, and not where NO_COLOR is set."""
     plain = machine.env.get("NO_COLOR") or machine.env.get("TERM") == "dumb"
     return stream.isatty() and not plain

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ros_doctor.examine import Examination, Result
+from ros_doctor.examine import Examination, ExaminedCheck
 from ros_doctor.finding import Status
 from ros_doctor.ros import find_ros
 from ros_doctor.surroundings import container, in_short, pi_model, release, wsl
@@ -42,16 +42,16 @@ def _machine(examination: Examination) -> dict[str, Any]:
     }
 
 
-def _check(result: Result) -> dict[str, Any]:
+def _check(result: ExaminedCheck) -> dict[str, Any]:
     check, finding = result.check, result.finding
     return {
         "id": check.id,
         "theme": check.theme,
-        "title": check.title,
+        "title": check.told("title"),
         "status": finding.status.value,
         "found": finding.found,
-        "looks_at": check.looks_at,
-        "symptom": check.symptom,
+        "looks_at": check.told("looks_at"),
+        "symptom": check.told("symptom"),
         "mend": [{"text": step.text, "command": step.command} for step in finding.mend],
         "lesson": check.lesson,
         "seconds": round(result.seconds, 4),

@@ -9,9 +9,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from ros_doctor.finding import Finding, Status, not_applicable, say, unknown
-from ros_doctor.machine import Machine
-from ros_doctor.registry import Check
-from ros_doctor.typed import for_this_place
+from ros_doctor.machine import ExaminedMachine
+from ros_doctor.registry import DoctorCheck
+from ros_doctor.texts import said
+from ros_doctor.usage import for_this_place
 
 WORST_FIRST = list(Status)
 OF_THE_COURSE = ("notebook",)
@@ -19,10 +20,10 @@ OF_THE_COURSE = ("notebook",)
 
 
 @dataclass(frozen=True)
-class Result:
+class ExaminedCheck:
     """A check, what it found, and the seconds that it took."""
 
-    check: Check
+    check: DoctorCheck
     finding: Finding
     seconds: float
 
@@ -31,11 +32,11 @@ class Result:
 class Examination:
     """Everything that was found on one machine, in the order of mending within each status."""
 
-    machine: Machine
-    results: tuple[Result, ...]
+    machine: ExaminedMachine
+    results: tuple[ExaminedCheck, ...]
     seconds: float
 
-    def worst_first(self) -> list[Result]:
+    def worst_first(self) -> list[ExaminedCheck]:
         """Return the results, faults first; among equals, causes before consequences."""
         return sorted(self.results, key=lambda one: WORST_FIRST.index(one.finding.status))
 
@@ -50,11 +51,11 @@ class Examination:
         return min(found, key=WORST_FIRST.index, default=Status.OK)
 
 
-def examine(machine: Machine, checks: Iterable[Check]) -> Examination:
+def examine(machine: ExaminedMachine, checks: Iterable[DoctorCheck]) -> Examination:
     """Run the checks and return what they found. Never raises for an ill machine."""
     start = time.monotonic()
     wanted = list(checks)
-    found: dict[str, Result] = {}
+    found: dict[str, ExaminedCheck] = {}
     for check in wanted:
         if not check.live:
             found[check.id] = _one(machine, check, found)
@@ -64,10 +65,12 @@ def examine(machine: Machine, checks: Iterable[Check]) -> Examination:
     )
 
 
-def _side_by_side(machine: Machine, checks: list[Check], found: dict[str, Result]) -> None:
+def _side_by_side(
+    machine: ExaminedMachine, checks: list[DoctorCheck], found: dict[str, ExaminedCheck]
+) -> None:
     quick = dict(found)
 
-    def work(check: Check) -> None:
+    def work(check: DoctorCheck) -> None:
         found[check.id] = _one(machine, check, quick)
 
     threads = [threading.Thread(target=work, args=(check,)) for check in checks]
@@ -77,17 +80,28 @@ def _side_by_side(machine: Machine, checks: list[Check], found: dict[str, Result
         thread.join()
 
 
-def _one(machine: Machine, check: Check, found: dict[str, Result]) -> Result:
+def _one(
+    machine: ExaminedMachine, check: DoctorCheck, found: dict[str, ExaminedCheck]
+) -> ExaminedCheck:
     start = time.monotonic()
     ill = [name for name in check.needs if _at_fault(found.get(name))]
-    finding = unknown(f"first mend {ill[0]}") if ill else _examined(machine, check)
+    finding = (
+        unknown(said("doctor.examine.one.unknown", "first mend {ill}", ill=ill[0]))
+        if ill
+        else _examined(machine, check)
+    )
     if check.theme in OF_THE_COURSE and not machine.has_course:
-        finding = not_applicable("there is no folder of the roslings course here")
+        finding = not_applicable(
+            said(
+                "doctor.examine.one.not_applicable",
+                "there is no folder of the roslings course here",
+            )
+        )
     shown = for_this_place(machine, for_this_user(machine, finding))
-    return Result(check, shown, time.monotonic() - start)
+    return ExaminedCheck(check, shown, time.monotonic() - start)
 
 
-def for_this_user(machine: Machine, finding: Finding) -> Finding:
+def for_this_user(machine: ExaminedMachine, finding: Finding) -> Finding:
     """Return the finding with mends that this user can type: root has, and needs, no sudo."""
     if machine.user != 0:
         return finding
@@ -95,18 +109,34 @@ def for_this_user(machine: Machine, finding: Finding) -> Finding:
     return replace(finding, mend=tuple(steps))
 
 
-def _at_fault(result: Result | None) -> bool:
+def _at_fault(result: ExaminedCheck | None) -> bool:
     return result is not None and result.finding.status == Status.FAULT
 
 
-def _examined(machine: Machine, check: Check) -> Finding:
+def _examined(machine: ExaminedMachine, check: DoctorCheck) -> Finding:
     try:
         return check.examine(machine)
     except PermissionError as problem:
-        return unknown(f"you may not open {problem.filename}")
+        return unknown(
+            said(
+                "doctor.examine.examined.unknown",
+                "you may not open {filename}",
+                filename=problem.filename,
+            )
+        )
     except Exception as problem:  # a strange machine must not hide the other findings
         kind = type(problem).__name__
         return unknown(
-            f"the check itself failed ({kind}: {problem})",
-            say("This is a mistake of the doctor. Report it with this line."),
+            said(
+                "doctor.examine.examined.unknown_2",
+                "the check itself failed ({kind}: {problem})",
+                kind=kind,
+                problem=problem,
+            ),
+            say(
+                said(
+                    "doctor.examine.examined.say",
+                    "This is a mistake of the doctor. Report it with this line.",
+                )
+            ),
         )

@@ -23,7 +23,7 @@ class Status(str, enum.Enum):
 
 
 @dataclass(frozen=True)
-class Step:
+class MendStep:
     """One step of a mend: a sentence, or a command to type, or a sentence about a command."""
 
     text: str = ""
@@ -36,34 +36,34 @@ class Finding:
 
     status: Status
     found: str
-    mend: tuple[Step, ...] = ()
+    mend: tuple[MendStep, ...] = ()
 
     def softened(self, status: Status) -> Finding:
         """Return the same finding with another status."""
         return replace(self, status=status)
 
 
-def say(text: str) -> Step:
+def say(text: str) -> MendStep:
     """Return a step of a mend that is a sentence."""
-    return Step(text=text)
+    return MendStep(text=text)
 
 
-def do(command: str, text: str = "") -> Step:
+def do(command: str, text: str = "") -> MendStep:
     """Return a step of a mend that is a command; `text` says what it does."""
-    return Step(text=text, command=command)
+    return MendStep(text=text, command=command)
 
 
-def fault(found: str, *mend: Step) -> Finding:
+def fault(found: str, *mend: MendStep) -> Finding:
     """Something will fail until this is mended."""
     return Finding(Status.FAULT, found, mend)
 
 
-def warning(found: str, *mend: Step) -> Finding:
+def warning(found: str, *mend: MendStep) -> Finding:
     """Something is likely to trip the student."""
     return Finding(Status.WARNING, found, mend)
 
 
-def advice(found: str, *mend: Step) -> Finding:
+def advice(found: str, *mend: MendStep) -> Finding:
     """It works, and could be better."""
     return Finding(Status.ADVICE, found, mend)
 
@@ -78,6 +78,6 @@ def not_applicable(reason: str) -> Finding:
     return Finding(Status.NOT_APPLICABLE, reason)
 
 
-def unknown(reason: str, *mend: Step) -> Finding:
+def unknown(reason: str, *mend: MendStep) -> Finding:
     """It could not be looked at."""
     return Finding(Status.UNKNOWN, reason, mend)

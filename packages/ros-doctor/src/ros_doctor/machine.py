@@ -16,7 +16,7 @@ LARGEST_TEXT = 2_000_000  # bytes; a file of settings is never longer
 
 
 @dataclass(frozen=True)
-class Ran:
+class CommandOutput:
     """What a command answered: its exit code and its output, both streams together."""
 
     code: int
@@ -33,7 +33,7 @@ class Interpreter:
 
 
 @dataclass(frozen=True)
-class Machine:
+class ExaminedMachine:
     """Everything that a check may look at.
 
     `root` stands for `/`, so that a test can show a tree of its own. It is applied to the paths
@@ -74,7 +74,7 @@ class Machine:
         found = shutil.which(program, path=self.env.get("PATH", ""))
         return Path(found) if found else None
 
-    def run(self, *command: str, timeout_s: float = 2.0) -> Ran | None:
+    def run(self, *command: str, timeout_s: float = 2.0) -> CommandOutput | None:
         """Run a program that only reads, with the student's variables.
 
         Returns None where it is missing, cannot start, or takes longer than `timeout_s`.
@@ -94,7 +94,7 @@ class Machine:
             )
         except (OSError, subprocess.TimeoutExpired):
             return None
-        return Ran(done.returncode, done.stdout.decode(errors="replace"))
+        return CommandOutput(done.returncode, done.stdout.decode(errors="replace"))
 
     def variable_paths(self, name: str) -> list[Path]:
         """Return the folders that a variable like PATH lists, without the empty ones."""
@@ -146,12 +146,12 @@ def _course() -> Path | None:
     return folder if exists(folder / "roslings") and exists(folder / "labs") else None
 
 
-def this_machine(workspace: Path | None = None) -> Machine:
+def this_machine(workspace: Path | None = None) -> ExaminedMachine:
     """Return the machine that this process runs on."""
     course = _course()
     env = dict(os.environ)
     home = Path(os.path.expanduser("~"))  # noqa: PTH111  Path.home() raises without HOME
-    return Machine(
+    return ExaminedMachine(
         env=env,
         home=home,
         here=_here(home),

@@ -1,7 +1,7 @@
 """When a public key of apt's ends, read from the key file itself (OpenPGP, RFC 9580).
 
-Only what is needed: public-key packets (tag 6) carry the day of making, their signatures (tag 2)
-carry the life time in seconds in subpacket 9.
+Only what is needed is read. Public-key packets (tag 6) carry the day of making. Their signatures
+(tag 2) carry the life time in seconds in subpacket 9.
 """
 
 from __future__ import annotations

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ros_doctor.machine import exists, read_text
+from ros_doctor.texts import said
 
 SKIPPED = frozenset(("build", "install", "log", "node_modules", "venv", "__pycache__"))
 DEPEND_TAGS = ("depend", "exec_depend", "build_depend", "test_depend", "run_depend")
@@ -49,13 +50,13 @@ class SetupPy:
 
 
 @dataclass(frozen=True)
-class Package:
+class WorkspacePackage:
     """One ROS package in the student's workspace, read lazily."""
 
     folder: Path
 
     @cached_property
-    def manifest(self) -> Manifest:
+    def manifest(self) -> PackageXml:
         """What package.xml says."""
         return read_manifest(self.folder / "package.xml")
 
@@ -90,7 +91,7 @@ class Package:
 
 
 @dataclass(frozen=True)
-class Manifest:
+class PackageXml:
     """package.xml: `problem` says what is wrong with it, in a few words."""
 
     name: str = ""
@@ -99,37 +100,45 @@ class Manifest:
     problem: str = ""
 
 
-def read_manifest(path: Path) -> Manifest:
+def read_manifest(path: Path) -> PackageXml:
     """Read a package.xml; a broken one comes back with a problem."""
     try:
         tree = ElementTree.fromstring(read_text(path))
     except ElementTree.ParseError as error:
-        return Manifest(problem=f"line {error.position[0]} is not valid XML")
+        return PackageXml(problem=_not_valid(error.position[0], "XML"))
     depends = {(one.text or "").strip() for tag in DEPEND_TAGS for one in tree.iter(tag)}
     build_type = (tree.findtext("export/build_type") or "").strip()
     name = (tree.findtext("name") or "").strip()
-    return Manifest(name, build_type, frozenset(depends), _manifest_problem(tree))
+    return PackageXml(name, build_type, frozenset(depends), _manifest_problem(tree))
+
+
+def _not_valid(line: int, language: str) -> str:
+    text = "line {line} is not valid {language}"
+    return said("doctor.packages.not_valid", text, line=line, language=language)
 
 
 def _manifest_problem(tree: ElementTree.Element) -> str:
     for tag in ("name", "version", "description", "maintainer", "license"):
         if not (tree.findtext(tag) or "").strip():
-            return f"<{tag}> is missing or empty"
+            return said("doctor.packages.missing", "<{tag}> is missing or empty", tag=tag)
     name = (tree.findtext("name") or "").strip()
     if not re.fullmatch(r"[a-zA-Z][a-zA-Z0-9_-]*", name):
-        return f"the name '{name}' has letters that a package name may not have"
+        text = "the name '{name}' has letters that a package name may not have"
+        return said("doctor.packages.name", text, name=name)
     if not re.fullmatch(r"\d+\.\d+\.\d+", (tree.findtext("version") or "").strip()):
-        return "<version> must be three numbers, as in 0.0.1"
+        text = "{tag} must be three numbers, as in 0.0.1"
+        return said("doctor.packages.version", text, tag="<version>")
     maintainer = tree.find("maintainer")
     email = maintainer.get("email", "") if maintainer is not None else ""
     if not re.fullmatch(r"[\w.+-]+@[\w-]+(\.[\w-]+)+", email):
-        return f"the maintainer's email '{email}' is not an email address"
+        text = "the maintainer's email '{email}' is not an email address"
+        return said("doctor.packages.email", text, email=email)
     return ""
 
 
-def find_packages(top: Path) -> tuple[Package, ...]:
+def find_packages(top: Path) -> tuple[WorkspacePackage, ...]:
     """Return the packages under `top`, without build folders and those marked COLCON_IGNORE."""
-    return tuple(Package(folder) for folder in _package_folders(top))
+    return tuple(WorkspacePackage(folder) for folder in _package_folders(top))
 
 
 def _package_folders(top: Path) -> Iterator[Path]:
@@ -150,12 +159,13 @@ def read_setup(path: Path) -> SetupPy:
     try:
         tree = ast.parse(read_text(path))
     except (SyntaxError, ValueError) as error:
-        return SetupPy(None, None, f"line {getattr(error, 'lineno', 1)} is not valid Python")
+        return SetupPy(None, None, _not_valid(getattr(error, "lineno", 1), "Python"))
     call = next((node for node in ast.walk(tree) if _called(node) == "setup"), None)
     if not isinstance(call, ast.Call):
-        return SetupPy(None, None, "it never calls setup()")
+        never = said("doctor.packages.never", "it never calls {function}", function="setup()")
+        return SetupPy(None, None, never)
     words = {word.arg: word.value for word in call.keywords if word.arg}
-    reader = Reader(_constants(tree), path.parent)
+    reader = SetupPyReader(_constants(tree), path.parent)
     return SetupPy(_entry_points(reader, words), _installed(reader, words))
 
 
@@ -177,7 +187,9 @@ def _constants(tree: ast.Module) -> dict[str, ast.expr]:
     }
 
 
-def _entry_points(reader: Reader, words: dict[str, ast.expr]) -> tuple[EntryPoint, ...] | None:
+def _entry_points(
+    reader: SetupPyReader, words: dict[str, ast.expr]
+) -> tuple[EntryPoint, ...] | None:
     if "entry_points" not in words:
         return ()
     try:
@@ -196,7 +208,7 @@ def entry_point(text: str) -> EntryPoint:
     return EntryPoint(text, *match.groups()[:3]) if match else EntryPoint(text)
 
 
-def _installed(reader: Reader, words: dict[str, ast.expr]) -> tuple[str, ...] | None:
+def _installed(reader: SetupPyReader, words: dict[str, ast.expr]) -> tuple[str, ...] | None:
     """Return the files that data_files names, relative to the package."""
     if "data_files" not in words:
         return ()
@@ -212,7 +224,7 @@ def _installed(reader: Reader, words: dict[str, ast.expr]) -> tuple[str, ...] | 
 
 
 @dataclass(frozen=True)
-class Reader:
+class SetupPyReader:
     """Works out the plain values in a setup.py. `glob` is the only call that looks at files."""
 
     constants: dict[str, ast.expr]
@@ -227,7 +239,7 @@ class Reader:
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             return node.value
         if isinstance(node, ast.Name) and node.id in self.constants:
-            return Reader(self._without(node.id), self.folder).value(self.constants[node.id])
+            return SetupPyReader(self._without(node.id), self.folder).value(self.constants[node.id])
         if isinstance(node, (ast.List, ast.Tuple)):
             return [self.value(item) for item in node.elts]
         if isinstance(node, ast.Dict):

@@ -9,9 +9,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ros_doctor.examine import Examination, Result
-from ros_doctor.finding import Step
-from ros_doctor.machine import Machine
+from ros_doctor.examine import Examination, ExaminedCheck
+from ros_doctor.finding import MendStep
+from ros_doctor.machine import ExaminedMachine
 
 # Names that tell nothing about a person, and that stand in many paths and texts.
 COMMON = frozenset(
@@ -81,7 +81,7 @@ def _words(text: str, names: Iterable[str], cover: str) -> str:
     return text
 
 
-def secrets_of(machine: Machine) -> Secrets:
+def secrets_of(machine: ExaminedMachine) -> Secrets:
     """Return what identifies this machine's user and host."""
     names = {machine.env.get(name, "") for name in ("USER", "LOGNAME", "USERNAME", "SUDO_USER")}
     hosts = {machine.env.get("HOSTNAME", ""), socket.gethostname()}
@@ -109,9 +109,9 @@ def redacted(examination: Examination) -> Examination:
     return replace(examination, machine=machine, results=results)
 
 
-def _result(secrets: Secrets, result: Result) -> Result:
+def _result(secrets: Secrets, result: ExaminedCheck) -> ExaminedCheck:
     finding = result.finding
     mend = tuple(
-        Step(secrets.hidden(step.text), secrets.hidden(step.command)) for step in finding.mend
+        MendStep(secrets.hidden(step.text), secrets.hidden(step.command)) for step in finding.mend
     )
     return replace(result, finding=replace(finding, found=secrets.hidden(finding.found), mend=mend))

@@ -9,11 +9,14 @@ import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
+from typing import Literal
 
 from ros_doctor.finding import Finding
-from ros_doctor.machine import Machine
+from ros_doctor.machine import ExaminedMachine
+from ros_doctor.texts import template
 
-Examine = Callable[[Machine], Finding]
+CheckText = Literal["title", "looks_at", "symptom"]
+Examine = Callable[[ExaminedMachine], Finding]
 
 
 class UnknownCheck(Exception):
@@ -26,8 +29,9 @@ class UnknownCheck(Exception):
 
 
 @dataclass(frozen=True)
-class Check:
-    """One thing that the doctor looks at.
+class DoctorCheck:
+    """One thing that the doctor looks at. Its texts are in English; `told` has them in another
+    language.
 
     `rows` are the numbers of the known troubles of beginners that it covers.
     `needs` are ids of checks: at a fault in one of them this check is not run.
@@ -45,8 +49,16 @@ class Check:
     needs: tuple[str, ...] = ()
     live: bool = False
 
+    def told(self, part: CheckText) -> str:
+        """One of its texts, in the language that is asked for."""
+        return template(self.text_id(part), getattr(self, part))
 
-_checks: dict[str, Check] = {}
+    def text_id(self, part: CheckText) -> str:
+        """The id of that text."""
+        return f"doctor.{self.id}.{part}"
+
+
+_checks: dict[str, DoctorCheck] = {}
 
 
 def check(
@@ -67,7 +79,7 @@ def check(
     def register(examine: Examine) -> Examine:
         theme = examine.__module__.rpartition(".")[2]
         symptom = " ".join(inspect.cleandoc(examine.__doc__ or "").split())
-        _checks[id] = Check(
+        _checks[id] = DoctorCheck(
             id, title, looks_at, symptom, _place(lesson), theme, examine, rows, needs, live
         )
         return examine
@@ -80,14 +92,14 @@ def _place(lesson: str) -> str:
     return f"site/pages/{lesson}" if lesson.startswith("reference/") else f"days/{lesson}"
 
 
-def all_checks() -> tuple[Check, ...]:
+def all_checks() -> tuple[DoctorCheck, ...]:
     """Return every check, causes before consequences."""
     import_module("ros_doctor.checks")  # which registers them
 
     return tuple(_checks.values())
 
 
-def find_check(wanted: str) -> Check:
+def find_check(wanted: str) -> DoctorCheck:
     """Return the check with this id.
 
     Raises:

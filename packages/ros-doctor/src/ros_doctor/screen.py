@@ -7,12 +7,13 @@ import textwrap
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from ros_doctor import typed
-from ros_doctor.examine import Examination, Result
-from ros_doctor.finding import Finding, Status, Step
-from ros_doctor.machine import Machine
-from ros_doctor.registry import Check
+from ros_doctor import usage
+from ros_doctor.examine import Examination, ExaminedCheck
+from ros_doctor.finding import Finding, MendStep, Status
+from ros_doctor.machine import ExaminedMachine
+from ros_doctor.registry import DoctorCheck
 from ros_doctor.surroundings import in_short
+from ros_doctor.texts import DoctorText, counted, said
 
 WIDTH = 79
 INDENT = "  "
@@ -27,24 +28,30 @@ COLOURS = {
     Status.NOT_APPLICABLE: "2",
 }
 THEMES = {
-    "computer": "Computer",
-    "install": "ROS itself",
-    "shell": "Terminal",
-    "network": "Network",
-    "live": "Live",
-    "workspace": "Workspace",
-    "hardware": "Hardware",
-    "desktop": "Screen",
-    "notebook": "Notebook",
+    "computer": DoctorText("doctor.theme.computer", "Computer"),
+    "install": DoctorText("doctor.theme.install", "ROS itself"),
+    "shell": DoctorText("doctor.theme.shell", "Terminal"),
+    "network": DoctorText("doctor.theme.network", "Network"),
+    "live": DoctorText("doctor.theme.live", "Live"),
+    "workspace": DoctorText("doctor.theme.workspace", "Workspace"),
+    "hardware": DoctorText("doctor.theme.hardware", "Hardware"),
+    "desktop": DoctorText("doctor.theme.desktop", "Screen"),
+    "notebook": DoctorText("doctor.theme.notebook", "Notebook"),
 }
-PLURALS = {
-    Status.FAULT: ("fault", "faults"),
-    Status.WARNING: ("warning", "warnings"),
-    Status.ADVICE: ("piece of advice", "pieces of advice"),
-    Status.OK: ("well", "well"),
-    Status.NOT_APPLICABLE: ("does not apply here", "do not apply here"),
-    Status.UNKNOWN: ("could not be looked at", "could not be looked at"),
+MARKS = {
+    Status.FAULT: DoctorText("doctor.mark.fault", "FAULT"),
+    Status.WARNING: DoctorText("doctor.mark.warning", "WARNING"),
+    Status.ADVICE: DoctorText("doctor.mark.advice", "ADVICE"),
+    Status.UNKNOWN: DoctorText("doctor.mark.unknown", "UNKNOWN"),
+    Status.OK: DoctorText("doctor.mark.ok", "OK"),
+    Status.NOT_APPLICABLE: DoctorText("doctor.mark.not_applicable", "NOT APPLICABLE"),
 }
+YOU_SEE, MEND = DoctorText("doctor.label.see", "You see"), DoctorText("doctor.label.mend", "Mend")
+MORE = DoctorText("doctor.label.more", "More")
+LOOKS_AT = DoctorText("doctor.label.looks_at", "Looks at")
+FOUND = DoctorText("doctor.label.found", "Found")
+LABELS = (YOU_SEE, MEND, MORE, LOOKS_AT, FOUND, *THEMES.values())
+"""All that stand before a text: the longest one sets the column for all."""
 
 
 @dataclass(frozen=True)
@@ -73,23 +80,23 @@ def lines_of(examination: Examination, paint: Paint, detailed: bool) -> Iterator
     yield from _summary(examination, paint)
 
 
-def _block(machine: Machine, result: Result, paint: Paint) -> Iterator[str]:
+def _block(machine: ExaminedMachine, result: ExaminedCheck, paint: Paint) -> Iterator[str]:
     check, finding = result.check, result.finding
-    mark = finding.status.value.upper()
+    mark = str(MARKS[finding.status])
     first, *others = textwrap.wrap(
         finding.found, WIDTH, initial_indent=" " * (len(mark) + 2), subsequent_indent=INDENT
     )
     yield paint(mark, finding.status) + first[len(mark) :]
     yield from others
     if finding.status.needs_a_mend:
-        yield from _labelled("You see", check.symptom)
+        yield from _labelled(YOU_SEE, check.told("symptom"))
         yield from mend_lines(finding)
-    yield from _labelled("More", f"{typed.doctor(machine)} --explain {check.id}")
+    yield from _labelled(MORE, f"{usage.doctor(machine)} --explain {check.id}")
 
 
 def mend_lines(finding: Finding) -> Iterator[str]:
     """Yield the steps of a mend; a command stands on its own line, whole, to be copied."""
-    label = "Mend"
+    label: DoctorText | str = MEND
     for step in finding.mend:
         if step.text:
             yield from _labelled(label, step.text)
@@ -98,17 +105,18 @@ def mend_lines(finding: Finding) -> Iterator[str]:
         label = ""
 
 
-def _command(step: Step, label: str) -> Iterator[str]:
+def _command(step: MendStep, label: DoctorText | str) -> Iterator[str]:
     if not step.command:
         return
     if label:
-        yield from _labelled(label, "Type this:")
+        yield from _labelled(label, said("doctor.type_this", "Type this:"))
     for line in step.command.splitlines():
         yield f"{INDENT * 3}{line}"
 
 
-def _labelled(label: str, text: str) -> list[str]:
-    start = f"{INDENT}{label:<{LABEL}}"
+def _labelled(label: DoctorText | str, text: str) -> list[str]:
+    column = max(LABEL, *(len(str(each)) + 1 for each in LABELS))
+    start = f"{INDENT}{label!s:<{column}}"
     return textwrap.wrap(
         text,
         WIDTH,
@@ -129,7 +137,7 @@ def _well(examination: Examination, paint: Paint) -> Iterator[str]:
     well = [one.check for one in examination.results if one.finding.status == Status.OK]
     if not well:
         return
-    yield paint("WELL", Status.OK)
+    yield paint(said("doctor.well", "WELL"), Status.OK)
     for theme, name in THEMES.items():
         ids = [check.id for check in well if check.theme == theme]
         if ids:
@@ -141,7 +149,7 @@ def _not_looked_at(examination: Examination, paint: Paint) -> Iterator[str]:
     unknown = [one for one in examination.results if one.finding.status == Status.UNKNOWN]
     if not unknown:
         return
-    yield paint("NOT LOOKED AT", Status.UNKNOWN)
+    yield paint(said("doctor.not_looked_at", "NOT LOOKED AT"), Status.UNKNOWN)
     for one in unknown:
         text = f"{one.check.id}: {one.finding.found}."
         yield from textwrap.wrap(
@@ -151,59 +159,79 @@ def _not_looked_at(examination: Examination, paint: Paint) -> Iterator[str]:
 
 
 def _summary(examination: Examination, paint: Paint) -> Iterator[str]:
-    counts = [_counted(examination.count(status), status) for status in PLURALS]
-    said = ", ".join(text for text in counts if text)
+    parts = ", ".join(_parts(examination))
+    one, other = "{count} check: {parts}.", "{count} checks: {parts}."
     number = len(examination.results)
-    word = "check" if number == 1 else "checks"
-    text = f"{number} {word}: {said}. {_verdict(examination)}"
-    for line in _wrapped(text):
+    checks = counted("doctor.summary", number, one=one, other=other, parts=parts)
+    for line in _wrapped(f"{checks} {_verdict(examination)}"):
         yield paint(line, examination.worst)
 
 
-def _counted(number: int, status: Status) -> str:
-    if not number:
-        return ""
-    one, many = PLURALS[status]
-    return f"{number} {one if number == 1 else many}"
+def _parts(examination: Examination) -> Iterator[str]:
+    """Yield how many checks ended with each status; nothing for none."""
+    if number := examination.count(Status.FAULT):
+        yield counted("doctor.faults", number, one="{count} fault", other="{count} faults")
+    if number := examination.count(Status.WARNING):
+        yield counted("doctor.warnings", number, one="{count} warning", other="{count} warnings")
+    if number := examination.count(Status.ADVICE):
+        one, other = "{count} piece of advice", "{count} pieces of advice"
+        yield counted("doctor.pieces", number, one=one, other=other)
+    if number := examination.count(Status.OK):
+        yield counted("doctor.are_well", number, one="{count} well", other="{count} well")
+    if number := examination.count(Status.NOT_APPLICABLE):
+        one, other = "{count} does not apply here", "{count} do not apply here"
+        yield counted("doctor.do_not_apply", number, one=one, other=other)
+    if number := examination.count(Status.UNKNOWN):
+        one = other = "{count} could not be looked at"
+        yield counted("doctor.unseen", number, one=one, other=other)
 
 
 def _verdict(examination: Examination) -> str:
     worst = [one for one in examination.worst_first() if one.finding.status.needs_a_mend]
-    again = f"then run {typed.doctor(examination.machine)} again."
+    if not worst and examination.count(Status.UNKNOWN):
+        return said("doctor.nothing_seen", "Nothing to mend in what was looked at.")
     if not worst:
-        alone = examination.count(Status.UNKNOWN)
-        return "Nothing to mend in what was looked at." if alone else "Nothing to mend."
+        return said("doctor.nothing", "Nothing to mend.")
     if examination.worst == Status.FAULT:
-        return f"Mend the first fault ({worst[0].check.id}), {again}"
+        text = "Mend the first fault ({check}), then run {command} again."
+        command = usage.doctor(examination.machine)
+        return said("doctor.first_fault", text, check=worst[0].check.id, command=command)
     if examination.worst == Status.WARNING:
-        return "The labs can start. Read the warnings first."
-    return "The labs can start. The advice can wait."
+        return said("doctor.warnings_first", "The labs can start. Read the warnings first.")
+    return said("doctor.advice_waits", "The labs can start. The advice can wait.")
 
 
-def list_lines(checks: Iterable[Check]) -> Iterator[str]:
+def list_lines(checks: Iterable[DoctorCheck]) -> Iterator[str]:
     """Yield one line a check, by theme, for `--list`."""
     theme = ""
     for check in checks:
         if check.theme != theme:
             theme = check.theme
-            yield THEMES[theme]
-        yield f"  {check.id:<18}{check.title}"
+            yield str(THEMES[theme])
+        start = f"  {check.id:<18}"
+        yield from textwrap.wrap(
+            check.told("title"),
+            WIDTH,
+            initial_indent=start,
+            subsequent_indent=" " * len(start),
+            break_on_hyphens=False,
+        )
 
 
-def explain_lines(result: Result, page: str, paint: Paint) -> Iterator[str]:
+def explain_lines(result: ExaminedCheck, page: str, paint: Paint) -> Iterator[str]:
     """Yield everything about one check: what it is, why it matters, how it stands here."""
     check = result.check
-    yield f"{check.id}: {check.title}"
+    yield from _wrapped(f"{check.id}: {check.told('title')}")
     yield ""
-    yield from _labelled("Looks at", check.looks_at)
-    yield from _labelled("You see", check.symptom)
+    yield from _labelled(LOOKS_AT, check.told("looks_at"))
+    yield from _labelled(YOU_SEE, check.told("symptom"))
     yield ""
     for paragraph in page.strip().split("\n\n"):
         yield from _wrapped(" ".join(paragraph.split()))
         yield ""
-    here = paint(result.finding.status.value.upper(), result.finding.status)
-    yield f"On this machine: {here}"
-    yield from _labelled("Found", result.finding.found)
+    here = paint(str(MARKS[result.finding.status]), result.finding.status)
+    yield said("doctor.on_this_machine", "On this machine: {status}", status=here)
+    yield from _labelled(FOUND, result.finding.found)
     yield from mend_lines(result.finding)
     yield ""
-    yield f"Read more: {check.lesson}"
+    yield said("doctor.read_more", "Read more: {lesson}", lesson=check.lesson)

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from ros_doctor.machine import Machine, exists
+from ros_doctor.machine import ExaminedMachine, exists
 
 JAZZY_UBUNTU = "24.04"  # REP 2000: Jazzy's apt packages are made for Ubuntu 24.04 (noble)
 
@@ -26,7 +26,7 @@ class Release:
         return self.id == "ubuntu" and self.version == JAZZY_UBUNTU
 
 
-def release(machine: Machine) -> Release:
+def release(machine: ExaminedMachine) -> Release:
     """Return which distribution this is."""
     found = dict(re.findall(r'^(\w+)="?([^"\n]*)"?$', machine.read("/etc/os-release"), re.M))
     return Release(
@@ -37,7 +37,7 @@ def release(machine: Machine) -> Release:
     )
 
 
-def container(machine: Machine) -> str:
+def container(machine: ExaminedMachine) -> str:
     """Return the kind of container that this is (`Docker`, `Podman`), or ""."""
     if codespace(machine):
         return CODESPACE
@@ -50,7 +50,7 @@ def container(machine: Machine) -> str:
     return CONTAINERS.get(kind, kind) or (CONTAINERS[inside.group()] if inside else "")
 
 
-def codespace(machine: Machine) -> bool:
+def codespace(machine: ExaminedMachine) -> bool:
     """Tell whether this is a container on a computer of GitHub's.
 
     https://docs.github.com/en/codespaces, "Default environment variables for your codespace".
@@ -58,7 +58,7 @@ def codespace(machine: Machine) -> bool:
     return machine.env.get("CODESPACES") == "true"
 
 
-def outlives(machine: Machine, folder: Path) -> bool:
+def outlives(machine: ExaminedMachine, folder: Path) -> bool:
     """Tell whether a folder lies outside of the container: on a volume, or a folder of the host."""
     mounts = [line.split()[1] for line in machine.read("/proc/self/mounts").splitlines() if line]
     return any(Path(mount) in (folder, *folder.parents) for mount in mounts if mount != "/")
@@ -74,7 +74,7 @@ CONTAINERS = {
 }
 
 
-def wsl(machine: Machine) -> int:
+def wsl(machine: ExaminedMachine) -> int:
     """Return the version of WSL, 1 or 2, or 0 on any other machine.
 
     Microsoft's kernels name themselves: `...-Microsoft` is WSL 1, `...-microsoft-standard-WSL2`.
@@ -85,7 +85,7 @@ def wsl(machine: Machine) -> int:
     return 2 if "WSL2" in kernel or "microsoft-standard" in kernel else 1
 
 
-def virtual_machine(machine: Machine) -> str:
+def virtual_machine(machine: ExaminedMachine) -> str:
     """Return the program that runs this virtual machine, or "" on real hardware."""
     text = machine.read("/sys/class/dmi/id/sys_vendor") + machine.read(
         "/sys/class/dmi/id/product_name"
@@ -106,13 +106,13 @@ VIRTUAL = {
 }
 
 
-def pi_model(machine: Machine) -> str:
+def pi_model(machine: ExaminedMachine) -> str:
     """Return the model of a Raspberry Pi (`Raspberry Pi 5 Model B Rev 1.0`), or ""."""
     model = machine.read("/proc/device-tree/model").strip()
     return model if model.startswith("Raspberry Pi") else ""
 
 
-def in_short(machine: Machine) -> str:
+def in_short(machine: ExaminedMachine) -> str:
     """Return the machine in a few words, for the first line of the report."""
     version = ".".join(str(part) for part in machine.interpreter.version)
     inside = [container(machine), f"WSL {wsl(machine)}" if wsl(machine) else ""]

@@ -16,7 +16,7 @@ from ros2_on_pip.words import WRONG_USE
 
 
 @dataclass(frozen=True)
-class Absent:
+class AbsentPackage:
     """A package that the wheels do not have."""
 
     what: str
@@ -65,24 +65,28 @@ def is_of_the_course() -> bool:
 
 
 ABSENT = {
-    "demo_nodes_cpp": Absent("is compiled", DEMO),
-    "examples_rclpy_minimal_publisher": Absent(TEACHING, DEMO),
-    "examples_rclpy_minimal_subscriber": Absent(TEACHING, "ros2 run demo_nodes_py listener"),
-    "image_tools": Absent("shows pictures in a window", PICTURES),
-    "joint_state_publisher_gui": Absent("opens a window", "ros2 topic pub /joint_states ..."),
-    "nav2_bringup": Absent("drives large robots", ROVER, "ros-jazzy-navigation2"),
-    "robot_state_publisher": Absent("is compiled", TF),
-    "ros_gz_sim": Absent("is a large simulator", ROVER, "ros-jazzy-ros-gz"),
-    "rqt": Absent("opens a window", f"for the graph {GRAPH}; for the rest ros2 topic, node, param"),
-    "rqt_console": Absent("opens a window", "ros2 topic echo /rosout"),
-    "rqt_gui": Absent("opens a window", f"for the graph {GRAPH}", "ros-jazzy-rqt"),
-    "rqt_image_view": Absent("shows pictures in a window", PICTURES),
-    "rqt_plot": Absent("draws curves in a window", "ros2 topic echo TOPIC --field data"),
-    "rviz2": Absent("draws robots in 3D", f"{ROVER}; for numbers ros2 topic echo"),
-    "slam_toolbox": Absent("makes maps of rooms", ROVER),
-    "turtlesim": Absent("opens a window", f"{ROVER}; to drive it, {DRIVE}"),
-    "usb_cam": Absent("reads a real camera", CAMERA),
-    "v4l2_camera": Absent("reads a real camera", CAMERA),
+    "demo_nodes_cpp": AbsentPackage("is compiled", DEMO),
+    "examples_rclpy_minimal_publisher": AbsentPackage(TEACHING, DEMO),
+    "examples_rclpy_minimal_subscriber": AbsentPackage(TEACHING, "ros2 run demo_nodes_py listener"),
+    "image_tools": AbsentPackage("shows pictures in a window", PICTURES),
+    "joint_state_publisher_gui": AbsentPackage(
+        "opens a window", "ros2 topic pub /joint_states ..."
+    ),
+    "nav2_bringup": AbsentPackage("drives large robots", ROVER, "ros-jazzy-navigation2"),
+    "robot_state_publisher": AbsentPackage("is compiled", TF),
+    "ros_gz_sim": AbsentPackage("is a large simulator", ROVER, "ros-jazzy-ros-gz"),
+    "rqt": AbsentPackage(
+        "opens a window", f"for the graph {GRAPH}; for the rest ros2 topic, node, param"
+    ),
+    "rqt_console": AbsentPackage("opens a window", "ros2 topic echo /rosout"),
+    "rqt_gui": AbsentPackage("opens a window", f"for the graph {GRAPH}", "ros-jazzy-rqt"),
+    "rqt_image_view": AbsentPackage("shows pictures in a window", PICTURES),
+    "rqt_plot": AbsentPackage("draws curves in a window", "ros2 topic echo TOPIC --field data"),
+    "rviz2": AbsentPackage("draws robots in 3D", f"{ROVER}; for numbers ros2 topic echo"),
+    "slam_toolbox": AbsentPackage("makes maps of rooms", ROVER),
+    "turtlesim": AbsentPackage("opens a window", f"{ROVER}; to drive it, {DRIVE}"),
+    "usb_cam": AbsentPackage("reads a real camera", CAMERA),
+    "v4l2_camera": AbsentPackage("reads a real camera", CAMERA),
 }
 """Name of the package, or of the command, to what is said."""
 
@@ -94,8 +98,5 @@ def main(name: str, argv: Sequence[str]) -> int:
     return WRONG_USE
 
 
-rqt = partial(main, "rqt")
-rqt_console = partial(main, "rqt_console")
-rqt_plot = partial(main, "rqt_plot")
 rviz2 = partial(main, "rviz2")
-"""Those that are typed without `ros2 run`; an environment has them on its path."""
+"""Typed without `ros2 run`: an environment has it on its path, as it has `window_commands.py`."""

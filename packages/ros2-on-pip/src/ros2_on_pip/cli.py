@@ -11,9 +11,9 @@ from typing import NoReturn
 
 from ros2_on_pip import own_output, stopping, surroundings
 from ros2_on_pip.handover import hand_over
-from ros2_on_pip.leaving import leave
-from ros2_on_pip.problem import Problem, did_you_mean
-from ros2_on_pip.words import OK, WRONG_USE, Parser, only_in_full
+from ros2_on_pip.problem import CommandProblem, did_you_mean
+from ros2_on_pip.quick_exit import leave
+from ros2_on_pip.words import OK, WRONG_USE, CommandParser, only_in_full
 
 COMMANDS = {
     "action": "Various action related sub-commands",
@@ -79,7 +79,7 @@ def explained(act: Callable[[], int]) -> int:
     try:
         surroundings.prepare()
         return act()
-    except Problem as problem:
+    except CommandProblem as problem:
         sys.stdout.flush()
         print(problem, file=sys.stderr)
         return problem.exit_code
@@ -169,16 +169,18 @@ def not_ours(word: str) -> int:
     return WRONG_USE
 
 
-def parser_for(word: str | None) -> Parser:
+def parser_for(word: str | None) -> CommandParser:
     """All commands by name; of the chosen one also its verbs and options."""
-    parser = Parser(prog="ros2", description="ros2 is an extensible command-line tool for ROS 2.")
+    parser = CommandParser(
+        prog="ros2", description="ros2 is an extensible command-line tool for ROS 2."
+    )
     parser.set_defaults(run=lambda _: _help(parser))
     parser.add_argument(
         BUFFERING,
         action="store_true",
         help="Do not write each line at once, but as Python does where the output is no terminal",
     )
-    words = parser.add_subparsers(title="Commands", metavar="COMMAND", parser_class=Parser)
+    words = parser.add_subparsers(title="Commands", metavar="COMMAND", parser_class=CommandParser)
     for name, about in COMMANDS.items():
         command = words.add_parser(name, help=about, description=about)
         if name == word and name not in DOCTORS:
@@ -186,7 +188,7 @@ def parser_for(word: str | None) -> Parser:
     return parser
 
 
-def _help(parser: Parser) -> int:
+def _help(parser: CommandParser) -> int:
     parser.print_help()
     print("\n  Call `ros2 COMMAND -h` for more detailed usage.")
     return OK

@@ -1,9 +1,9 @@
 """A node of our own that looks at the graph, and knows when it has seen all of it.
 
-Discovery takes between 0.05 s and 3 s, by luck, so waiting for a fixed time is wrong both ways.
-But each program that takes part in ROS on this computer holds UDP ports of its domain, and the
-kernel lists them: so it is known who must answer, and the look ends when all have. They are asked
-at once, so that luck plays no part (`roll_call`).
+Discovery takes between 0.05 s and 3 s, by luck, so waiting for a fixed time is wrong both ways. But
+each program that takes part in ROS on this computer holds UDP ports of its domain. The kernel lists
+them. So it is known who must answer, and the look ends when all have. They are asked at once, so
+that luck plays no part (`roll_call`).
 """
 
 from __future__ import annotations
@@ -16,13 +16,16 @@ import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from threading import Lock
 from types import TracebackType
 from typing import Any
 
 from ros2_on_pip import stopping
+from ros2_on_pip.bare_node import BareNode, bare_node
+from ros2_on_pip.look_profile import quick_look
 from ros2_on_pip.names import is_hidden, node_name
-from ros2_on_pip.participants import participants_here
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.participants import BELIEVED_READINGS, participants_here
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.roll_call import RollCall
 from ros2_on_pip.surroundings import check_middleware, domain_id, looks_beyond_this_computer
 
@@ -38,8 +41,6 @@ QUIET_BEYOND_S = 1.5
 """Where other computers may answer too, nothing new for this long means that it is all."""
 
 LOOK_EVERY_S = 0.02
-BELIEVED_READINGS = 5
-"""Who stood in none of the kernel's last readings has ended."""
 
 SILENT_LOOKS = 300
 """A program that is alive speaks every 3 s; who is silent for twice as long is stuck or is not ROS.
@@ -67,7 +68,7 @@ PREFIX, HOST = 12, 4
 """The first bytes of an endpoint's id name its participant, and of these the first its computer."""
 
 
-class RosDoesNotStart(Problem):
+class RosDoesNotStart(CommandProblem):
     """rclpy is missing, or it cannot open a node."""
 
     def __init__(self, fault: BaseException) -> None:
@@ -75,7 +76,7 @@ class RosDoesNotStart(Problem):
         super().__init__(f"ROS does not start here: {reason}\nTo find out why: ros2 doctor")
 
 
-class NodeVanished(Problem):
+class NodeVanished(CommandProblem):
     """A node ended while we looked at it."""
 
     def __init__(self, node: str) -> None:
@@ -131,26 +132,49 @@ def _by_participant(infos: Iterable[Any]) -> Counter[bytes]:
     return Counter(bytes(info.endpoint_gid)[:PREFIX] for info in infos)
 
 
-class Eye:
-    """Our node, in a context of its own. A context manager: leaving the block ends both."""
+class DirectNode:
+    """Our node, in a context of its own. A context manager: leaving the block ends both.
 
-    def __init__(self, name: str = "", sim_time: bool = False, look_s: float = 0.0) -> None:
+    A look needs a `BareNode` only. rclpy's own comes in its place when somebody takes it (`node`),
+    to hear. Who `speaks` is rclpy's own from the beginning, and so is who has a name by which
+    others are to see it. It hurries nobody, so that others know it as soon as it knows them: else
+    it would speak to those who do not listen yet.
+    """
+
+    def __init__(
+        self,
+        name: str = "",
+        sim_time: bool = False,
+        look_s: float = 0.0,
+        *,
+        speaks: bool = False,
+    ) -> None:
         """`name` is the node's; by default a hidden one, as the real tool has it.
 
-        With `sim_time` its clock is the topic /clock; each look takes `look_s` at least.
+        With `sim_time` its clock is the topic /clock; each look takes `look_s` at least. Who
+        `speaks` publishes, or asks a service.
         """
         self._name = name or f"_ros2cli_{os.getpid()}"
+        # Another one, for ROS forgets a node by its name, and both are there for a moment.
+        self._bare_name = f"_ros2cli_look_{os.getpid()}"
+        self._names = (self._name, self._bare_name)
+        self._only_looks = not (name or speaks)
         self._sim_time, self._look_s = sim_time, look_s
+        self._bare: BareNode | None = None
+        self._whole: tuple[Any, Any] | None = None
+        self._opening = Lock()
 
     @classmethod
-    def asked_by(cls, options: argparse.Namespace, name: str = "") -> Eye:
+    def asked_by(
+        cls, options: argparse.Namespace, name: str = "", *, speaks: bool = False
+    ) -> DirectNode:
         """With what `--use-sim-time` and `--spin-time` say."""
-        return cls(name, options.use_sim_time, options.spin_time)
+        return cls(name, options.use_sim_time, options.spin_time, speaks=speaks)
 
-    def __enter__(self) -> Eye:
+    def __enter__(self) -> DirectNode:
         self.domain = domain_id()
         check_middleware()
-        self._roll: RollCall | None = RollCall(self.domain).__enter__()
+        self._roll: RollCall | None = self._called_roll()
         try:
             self._open()
         except (ImportError, RuntimeError) as fault:
@@ -160,9 +184,6 @@ class Eye:
 
     def _open(self) -> None:
         import rclpy
-        from rclpy.executors import SingleThreadedExecutor
-        from rclpy.node import Node
-        from rclpy.parameter import Parameter
         from rclpy.signals import SignalHandlerOptions
 
         self.context = rclpy.Context()
@@ -172,7 +193,42 @@ class Eye:
             domain_id=self.domain,
             signal_handler_options=SignalHandlerOptions.NO,
         )
-        self.node = Node(
+        if self._only_looks:
+            with quick_look():
+                self._bare = bare_node(self._bare_name, self.context)
+        self._whole = None if self._bare else self._open_whole()
+
+    @property
+    def graph(self) -> Any:
+        """What tells of the graph: nodes, topics, services, and who has them."""
+        return self._whole[0] if self._whole else self._bare
+
+    @property
+    def node(self) -> Any:
+        """rclpy's own node. Raises RosDoesNotStart."""
+        return self._both_parts()[0]
+
+    @property
+    def _executor(self) -> Any:
+        return self._both_parts()[1]
+
+    def _both_parts(self) -> tuple[Any, Any]:
+        """Node and executor; made when the first thread asks for one of them."""
+        with self._opening:
+            if self._whole is None:
+                try:
+                    self._whole = self._open_whole()
+                except (ImportError, RuntimeError) as fault:
+                    raise RosDoesNotStart(fault) from fault
+                self._leave_bare()
+            return self._whole
+
+    def _open_whole(self) -> tuple[Any, Any]:
+        from rclpy.executors import SingleThreadedExecutor
+        from rclpy.node import Node
+        from rclpy.parameter import Parameter
+
+        node = Node(
             self._name,
             context=self.context,
             use_global_arguments=False,
@@ -180,8 +236,14 @@ class Eye:
             start_parameter_services=False,
             parameter_overrides=[Parameter("use_sim_time", value=self._sim_time)],
         )
-        self._executor = SingleThreadedExecutor(context=self.context)
-        self._executor.add_node(self.node)
+        executor = SingleThreadedExecutor(context=self.context)
+        executor.add_node(node)
+        return node, executor
+
+    def _leave_bare(self) -> None:
+        if self._bare:
+            self._bare.destroy_node()
+            self._bare = None
 
     def __exit__(
         self,
@@ -190,14 +252,17 @@ class Eye:
         trace: TracebackType | None,
     ) -> None:
         self._end_roll()
-        # A callback that Ctrl-C cut short never counts as done, so waiting has its bound.
-        self._executor.shutdown(timeout_sec=END_WITHIN_S)
-        self.node.destroy_node()
+        if self._whole:
+            node, executor = self._whole
+            # A callback that Ctrl-C cut short never counts as done, so waiting has its bound.
+            executor.shutdown(timeout_sec=END_WITHIN_S)
+            node.destroy_node()
+        self._leave_bare()
         self.context.try_shutdown()
 
-    def settle(self, only_nodes: bool = False) -> Eye:
+    def settle(self, only_nodes: bool = False) -> DirectNode:
         """Wait until the graph is complete; with `only_nodes`, until all names of nodes are."""
-        self._roll = self._roll or RollCall(self.domain).__enter__()
+        self._roll = self._roll or self._called_roll()
         settling = Settling(self.domain, self._roll, self._look_s, 0.0 if only_nodes else QUIET_S)
         try:
             while not settling.after(self._sight()):
@@ -206,6 +271,9 @@ class Eye:
         finally:
             self._end_roll()
         return self
+
+    def _called_roll(self) -> RollCall:
+        return RollCall(self.domain, hurries=self._only_looks).__enter__()
 
     def _end_roll(self) -> None:
         if self._roll:
@@ -223,31 +291,32 @@ class Eye:
 
     def nodes(self, hidden: bool = False) -> list[str]:
         """Full names of all nodes but our own, in order; one name as often as it is there."""
-        pairs = self.node.get_node_names_and_namespaces()
-        names = sorted(node_name(name, space) for name, space in pairs if name != self._name)
+        pairs = self.graph.get_node_names_and_namespaces()
+        names = sorted(node_name(name, space) for name, space in pairs if name not in self._names)
         return [name for name in names if hidden or not is_hidden(name)]
 
     def topics(self, hidden: bool = True) -> dict[str, list[str]]:
         """Every topic that somebody else takes part in, with its types."""
-        found = self.node.get_topic_names_and_types()
+        found = self.graph.get_topic_names_and_types()
         return {
             name: list(types)
             for name, types in sorted(found)
-            if (hidden or not is_hidden(name)) and (self.publishers(name) or self.ears(name))
+            if (hidden or not is_hidden(name))
+            and (self.publishers(name) or self.subscriptions(name))
         }
 
     def publishers(self, topic: str) -> list[Any]:
         """What is known of each publisher of `topic` but our own."""
-        return self._others(self.node.get_publishers_info_by_topic(topic))
+        return self._others(self.graph.get_publishers_info_by_topic(topic))
 
-    def ears(self, topic: str) -> list[Any]:
+    def subscriptions(self, topic: str) -> list[Any]:
         """What is known of each subscription to `topic` but our own."""
-        return self._others(self.node.get_subscriptions_info_by_topic(topic))
+        return self._others(self.graph.get_subscriptions_info_by_topic(topic))
 
     def services(self, hidden: bool = True) -> dict[str, list[str]]:
         """Every service that another node offers, with its types."""
-        own = set(self._by_node("service", f"/{self._name}"))
-        found = self.node.get_service_names_and_types()
+        own = set(self._by_node("service", f"/{self._name}")) if self._whole else ()
+        found = self.graph.get_service_names_and_types()
         return {
             name: list(types)
             for name, types in sorted(found)
@@ -266,11 +335,11 @@ class Eye:
 
     def _by_node(self, what: str, full_name: str) -> dict[str, list[str]]:
         space, _, name = full_name.rpartition("/")
-        read = getattr(self.node, f"get_{what}_names_and_types_by_node")
+        read = getattr(self.graph, f"get_{what}_names_and_types_by_node")
         return {found: list(types) for found, types in read(name, space or "/")}
 
     def _others(self, infos: Iterable[Any]) -> list[Any]:
-        return [info for info in infos if info.node_name not in (self._name, UNNAMED)]
+        return [info for info in infos if info.node_name not in (*self._names, UNNAMED)]
 
     def spin_to(self, due_s: float) -> None:
         """Run callbacks until the moment `due_s` of the monotonic clock."""
@@ -286,7 +355,7 @@ class Eye:
         self._executor.spin_once(timeout_sec=within_s)
 
     def _sight(self) -> Sight:
-        raw = [name for name, _ in self.node.get_topic_names_and_types(no_demangle=True)]
+        raw = [name for name, _ in self.graph.get_topic_names_and_types(no_demangle=True)]
         both = {name: self._both(name) for name in raw if name.startswith(ROS_TOPICS)}
         seen = {
             bytes(info.endpoint_gid): info.node_name
@@ -294,7 +363,7 @@ class Eye:
             for infos in kinds
             for info in infos
         }
-        own = next((gid for gid, node in seen.items() if node == self._name), b"")
+        own = next((gid for gid, node in seen.items() if node in self._names), b"")
         speak, hear = (
             {bytes(info.endpoint_gid)[:PREFIX] for info in infos} for infos in self._both(WHO)
         )
@@ -303,17 +372,17 @@ class Eye:
             named=frozenset(gid[:PREFIX] for gid, node in seen.items() if node != UNNAMED),
             endpoints=len(seen),
             unnamed=sum(node == UNNAMED for node in seen.values()),
-            nodes=len(self.node.get_node_names()),
+            nodes=len(self.graph.get_node_names_and_namespaces()),
             half_known=frozenset(gid[:PREFIX] for gid, node in seen.items() if node == UNNAMED)
             | with_half_a_service(both),
         )
 
     def _both(self, raw_topic: str) -> tuple[list[Any], list[Any]]:
         """Its publishers, and its subscriptions: DDS tells of each kind by itself."""
-        node = self.node
+        graph = self.graph
         return (
-            node.get_publishers_info_by_topic(raw_topic, no_mangle=True),
-            node.get_subscriptions_info_by_topic(raw_topic, no_mangle=True),
+            graph.get_publishers_info_by_topic(raw_topic, no_mangle=True),
+            graph.get_subscriptions_info_by_topic(raw_topic, no_mangle=True),
         )
 
 
@@ -332,7 +401,8 @@ class Settling:
         self._roll = roll
         self._quiet_s = QUIET_S if quiet_s is None else quiet_s
         self._until_s = time.monotonic() + at_least_s
-        self._ports: deque[frozenset[int]] = deque(maxlen=BELIEVED_READINGS)
+        read_before = roll.readings.copy() if roll else ()
+        self._ports: deque[frozenset[int]] = deque(read_before, maxlen=BELIEVED_READINGS)
         self._before: Sight | None = None
         self._late_s = 0.0
         self._restart()

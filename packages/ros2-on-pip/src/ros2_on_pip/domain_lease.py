@@ -1,7 +1,7 @@
 """Lease a ROS domain that nobody else on this machine uses.
 
-A lease is a bound TCP port on loopback: the kernel gives it to one process only, and takes it
-back when that process ends, however it ends. It needs no file, so two users do not meet.
+A lease is a bound TCP port on loopback. The kernel gives it to one process only, and takes it back
+when that process ends, however it ends. It needs no file, so two users do not meet.
 """
 
 from __future__ import annotations

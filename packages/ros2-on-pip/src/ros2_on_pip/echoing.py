@@ -9,18 +9,18 @@ from collections.abc import Callable
 from typing import Any
 
 from ros2_on_pip import qos
-from ros2_on_pip.discovery import Eye
+from ros2_on_pip.discovery import DirectNode
 from ros2_on_pip.habits import index_in_field
 from ros2_on_pip.interfaces import class_of, full_name
 from ros2_on_pip.listening import filter_in, known_type, subscribe, topic_in
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 from ros2_on_pip.words import OK
-from ros2_on_pip.yaml_out import Shape, as_csv, as_yaml, is_message
+from ros2_on_pip.yaml_out import YamlOptions, as_csv, as_yaml, is_message
 
 _PLACE = re.compile(r"([^.\[\]]+)|\[(\d+)\]")
 
 
-class BadField(Problem):
+class NoSuchField(CommandProblem):
     """`--field` names something that the message does not have."""
 
     def __init__(self, field: str, reason: str) -> None:
@@ -35,33 +35,33 @@ def echo(options: argparse.Namespace) -> int:
     passes = filter_in(options)
     for field in options.field or []:
         index_in_field(field)
-    with Eye.asked_by(options) as eye:
-        eye.settle()
-        type_name = _type(eye, topic, options)
+    with DirectNode.asked_by(options) as direct_node:
+        direct_node.settle()
+        type_name = _type(direct_node, topic, options)
         picks = [_checked(field, class_of(type_name, "msg")) for field in options.field or []]
         printer = Printer(options, picks, passes)
         subscribe(
-            eye,
+            direct_node,
             topic,
             type_name,
-            _profile(eye, topic, options),
+            _profile(direct_node, topic, options),
             printer.hear,
             options.raw,
             None if options.no_lost_messages else say_lost,
         )
-        eye.until(lambda: printer.done, options.timeout)
+        direct_node.until(lambda: printer.done, options.timeout)
     return OK
 
 
-def _type(eye: Eye, topic: str, options: argparse.Namespace) -> str:
+def _type(direct_node: DirectNode, topic: str, options: argparse.Namespace) -> str:
     if options.message_type:
         return full_name(options.message_type, "msg")
-    return known_type(eye, topic)
+    return known_type(direct_node, topic)
 
 
-def _profile(eye: Eye, topic: str, options: argparse.Namespace) -> Any:
+def _profile(direct_node: DirectNode, topic: str, options: argparse.Namespace) -> Any:
     """The quality to ask for; a word is said where it hears less than was meant."""
-    profile = qos.for_echo(options, eye.publishers(topic))
+    profile = qos.for_echo(options, direct_node.publishers(topic))
     if qos.hears_nothing_earlier(profile):
         print(
             "NOTE: with one --qos option, all others are those of sensor_data, which is best"
@@ -123,14 +123,14 @@ def _raw_head(info: Any) -> str:
     return f"---Got new message, message info:---\n{info}\n---Message data:---\n"
 
 
-def _shown(part: Any, shape: Shape) -> str:
+def _shown(part: Any, shape: YamlOptions) -> str:
     """The real tool prints a field that is no message as Python has it."""
     return as_yaml(part, shape) if is_message(part) else f"{part}\n"
 
 
-def shape_in(options: argparse.Namespace) -> Shape:
+def shape_in(options: argparse.Namespace) -> YamlOptions:
     """How much of each message the options ask for."""
-    return Shape(
+    return YamlOptions(
         longest=None if options.full_length else options.truncate_length,
         no_arrays=options.no_arr,
         no_texts=options.no_str,
@@ -139,12 +139,12 @@ def shape_in(options: argparse.Namespace) -> Shape:
 
 
 def _checked(field: str, cls: Any) -> list[str | int]:
-    """The places of `--field a.b[0].c`, tried on an empty message. Raises BadField."""
+    """The places of `--field a.b[0].c`, tried on an empty message. Raises NoSuchField."""
     places: list[str | int] = [
         int(index) if index else name for name, index in _PLACE.findall(field)
     ]
     if not places:
-        raise BadField(field, "it names no field")
+        raise NoSuchField(field, "it names no field")
     _follow(field, cls(), places)
     return places
 
@@ -156,7 +156,7 @@ def _follow(field: str, part: Any, places: list[str | int]) -> None:
             return
         fields = list(part.get_fields_and_field_types())
         if place not in fields:
-            raise BadField(
+            raise NoSuchField(
                 field,
                 f"there is no '{place}'.{did_you_mean(place, fields)}"
                 f" There is: {', '.join(fields) or 'nothing'}",
@@ -170,5 +170,5 @@ def _picked(message: Any, places: list[str | int]) -> Any:
         try:
             part = part[place] if isinstance(place, int) else getattr(part, place)
         except (IndexError, AttributeError, TypeError) as fault:
-            raise BadField(".".join(map(str, places)), str(fault)) from None
+            raise NoSuchField(".".join(map(str, places)), str(fault)) from None
     return part

@@ -9,13 +9,13 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import Any
 
-from ros2_on_pip.discovery import Eye
-from ros2_on_pip.multicast import GROUP, PORT, Ear, Voice
+from ros2_on_pip.discovery import DirectNode
+from ros2_on_pip.multicast import GROUP, PORT, MulticastReceiver, MulticastSender
 from ros2_on_pip.names import checked_topic
 from ros2_on_pip.words import OK
 
 
-class Table:
+class GreetingTable:
     """How often who was heard, since the last time that it was printed."""
 
     def __init__(self, own: str) -> None:
@@ -58,30 +58,39 @@ def greet(options: argparse.Namespace) -> int:
     from std_msgs.msg import String
 
     host, topic = socket.gethostname(), checked_topic(options.topic)
-    table = Table(host)
-    with Eye() as eye, Ear(GROUP, PORT) as ear, Voice(GROUP, PORT, options.ttl) as voice:
-        mouth = eye.node.create_publisher(String, topic, 10)
-        eye.node.create_subscription(
+    table = GreetingTable(host)
+    with (
+        DirectNode(speaks=True) as direct_node,
+        MulticastReceiver(GROUP, PORT) as receiver,
+        MulticastSender(GROUP, PORT, options.ttl) as sender,
+    ):
+        publisher = direct_node.node.create_publisher(String, topic, 10)
+        direct_node.node.create_subscription(
             String, topic, lambda message: table.count(table.by_ros, [message.data]), 10
         )
 
         def say() -> None:
-            mouth.publish(String(data=f"hello, it's me {host}"))
-            voice.send(f"hello, it's me {host}")
+            publisher.publish(String(data=f"hello, it's me {host}"))
+            sender.send(f"hello, it's me {host}")
             table.said, table.sent = table.said + 1, table.sent + 1
 
-        _go_on(eye, ear, table, say, options, topic)
+        _go_on(direct_node, receiver, table, say, options, topic)
     return OK
 
 
 def _go_on(
-    eye: Eye, ear: Ear, table: Table, say: Any, options: argparse.Namespace, topic: str
+    direct_node: DirectNode,
+    receiver: MulticastReceiver,
+    table: GreetingTable,
+    say: Any,
+    options: argparse.Namespace,
+    topic: str,
 ) -> None:
     printed_s = time.monotonic()
     while True:
         say()
-        eye.spin_to(time.monotonic() + options.emit_period)
-        table.count(table.by_multicast, ear.waiting())
+        direct_node.spin_to(time.monotonic() + options.emit_period)
+        table.count(table.by_multicast, receiver.waiting())
         if options.once or time.monotonic() - printed_s >= options.print_period:
             print("\n".join(table.lines(topic, options.print_period)))
             table.clear()

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from ros2_on_pip.packages import share_of
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 
 KINDS = {"msg": "message", "srv": "service", "action": "action"}
 FEEDBACK = "_FeedbackMessage"
 
 
-class UnknownInterface(Problem):
+class UnknownInterface(CommandProblem):
     """No installed package has this type."""
 
     def __init__(self, type_name: str, kind: str = "") -> None:
@@ -105,7 +105,7 @@ def _candidates(type_name: str) -> Iterator[Path]:
         return
     try:
         share = share_of(parts[0])
-    except Problem:
+    except CommandProblem:
         return
     for kind in kinds:
         yield share / kind / f"{parts[-1]}.{kind}"

@@ -117,7 +117,7 @@ class Keys:
         termios.tcsetattr(self.descriptor, termios.TCSADRAIN, self.before)
 
     @contextmanager
-    def lent(self) -> Iterator[None]:
+    def handed_over(self) -> Iterator[None]:
         """Another program has the terminal while the block runs."""
         self.restore()
         try:

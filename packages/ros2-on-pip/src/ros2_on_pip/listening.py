@@ -8,15 +8,15 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from ros2_on_pip import qos
-from ros2_on_pip.discovery import Eye
+from ros2_on_pip.discovery import DirectNode
 from ros2_on_pip.interfaces import class_of
 from ros2_on_pip.names import checked_topic
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 
 NOT_YET = "WARNING: topic [{}] does not appear to be published yet"
 
 
-class UnknownTopic(Problem):
+class UnknownTopic(CommandProblem):
     """Nobody publishes or hears the topic, so its type is not known either."""
 
     def __init__(self, topic: str, there: Iterable[str]) -> None:
@@ -27,7 +27,7 @@ class UnknownTopic(Problem):
         )
 
 
-class BadFilter(Problem):
+class BadFilter(CommandProblem):
     """`--filter` is no Python expression, or it does not fit the messages."""
 
     def __init__(self, expression: str, fault: Exception) -> None:
@@ -37,7 +37,7 @@ class BadFilter(Problem):
         )
 
 
-class SeveralTypes(Problem):
+class SeveralTypes(CommandProblem):
     """Two nodes use one name for two types."""
 
     def __init__(self, topic: str, types: list[str]) -> None:
@@ -48,35 +48,35 @@ class SeveralTypes(Problem):
         )
 
 
-def type_of(eye: Eye, topic: str) -> str | None:
+def type_of(direct_node: DirectNode, topic: str) -> str | None:
     """The type of `topic`; None where nobody has it. Raises SeveralTypes."""
-    types = eye.topics().get(topic, [])
+    types = direct_node.topics().get(topic, [])
     if len(types) > 1:
         raise SeveralTypes(topic, types)
     return types[0] if types else None
 
 
-def known_type(eye: Eye, topic: str) -> str:
+def known_type(direct_node: DirectNode, topic: str) -> str:
     """The type of `topic`. Raises UnknownTopic, SeveralTypes."""
-    found = type_of(eye, topic)
+    found = type_of(direct_node, topic)
     if found is None:
         print(NOT_YET.format(topic), file=sys.stderr)
-        raise UnknownTopic(topic, eye.topics(hidden=False))
+        raise UnknownTopic(topic, direct_node.topics(hidden=False))
     return found
 
 
-def awaited_type(eye: Eye, topic: str) -> str:
+def awaited_type(direct_node: DirectNode, topic: str) -> str:
     """The type of `topic`, as soon as somebody has it: a word is said while we wait."""
-    if type_of(eye, topic) is None:
-        near = did_you_mean(topic, eye.topics(hidden=False))
+    if type_of(direct_node, topic) is None:
+        near = did_you_mean(topic, direct_node.topics(hidden=False))
         print(NOT_YET.format(topic) + ("." + near if near else ""), file=sys.stderr)
-        eye.until(lambda: type_of(eye, topic))
-        eye.settle()
-    return known_type(eye, topic)
+        direct_node.until(lambda: type_of(direct_node, topic))
+        direct_node.settle()
+    return known_type(direct_node, topic)
 
 
 def subscribe(
-    eye: Eye,
+    direct_node: DirectNode,
     topic: str,
     type_name: str,
     profile: Any,
@@ -90,16 +90,18 @@ def subscribe(
     """
     from rclpy.event_handler import SubscriptionEventCallbacks
 
-    publishers = eye.publishers(topic)
+    publishers = direct_node.publishers(topic)
     told = {bytes(info.endpoint_gid) for info in publishers}
     _say(qos.said_about(publishers, profile))
 
     def tell_of_new(_: Any) -> None:
-        new = [info for info in eye.publishers(topic) if bytes(info.endpoint_gid) not in told]
+        new = [
+            info for info in direct_node.publishers(topic) if bytes(info.endpoint_gid) not in told
+        ]
         told.update(bytes(info.endpoint_gid) for info in new)
         _say(qos.said_about(new, profile))
 
-    return eye.node.create_subscription(
+    return direct_node.node.create_subscription(
         class_of(type_name, "msg"),
         topic,
         hear,

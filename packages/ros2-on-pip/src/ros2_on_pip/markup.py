@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import html
 import re
+from string import Formatter
 
+from ros2_on_pip.language import template
 from ros2_on_pip.safe_text import harmless
 
 _CODE = re.compile(r"`([^`\n]+)`")
@@ -41,6 +43,16 @@ def prose(text: str) -> Markup:
     """A sentence, with what stands between backquotes as code."""
     parts = _CODE.split(text)
     return joined(*(tag("code", p) if index % 2 else p for index, p in enumerate(parts)))
+
+
+def told(id: str, english: str, /, **fields: str) -> Markup:
+    """The text of this id in the language that is asked for; a field may be an element.
+
+    So each language has its own order of words round what is code on a page.
+    """
+    parts = Formatter().parse(template(id, english))
+    filled = {**fields, "": ""}  # behind the last field there may be text, and no other field
+    return joined(*(part for text, name, _, _ in parts for part in (text, filled[name or ""])))
 
 
 def _attribute(key: str, value: Attribute) -> str:

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from ros2_on_pip.discovery import Eye
+from ros2_on_pip.discovery import DirectNode
 from ros2_on_pip.interfaces import class_of, name_of
 from ros2_on_pip.listening import awaited_type, filter_in, known_type, subscribe, topic_in
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.qos import matching
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ class Arrival:
     size: int
 
 
-class Window:
+class MessageWindow:
     """The newest messages."""
 
     def __init__(self, most: int) -> None:
@@ -66,12 +66,12 @@ class Window:
         return came
 
 
-class SimWindow(Window):
+class SimWindow(MessageWindow):
     """The newest messages, by the time of /clock; before that has begun, none count."""
 
-    def __init__(self, most: int, eye: Eye) -> None:
+    def __init__(self, most: int, direct_node: DirectNode) -> None:
         super().__init__(most)
-        self._clock = eye.node.get_clock()
+        self._clock = direct_node.node.get_clock()
 
     def hear(self, raw: bytes, info: Any) -> None:
         """Keep when one message came."""
@@ -83,23 +83,23 @@ class SimWindow(Window):
 def hz(options: argparse.Namespace) -> int:
     """`ros2 topic hz TOPIC`."""
     passes = filter_in(options)
-    with Eye.asked_by(options) as eye:
+    with DirectNode.asked_by(options) as direct_node:
         by_sim = options.use_sim_time and not options.wall_time
         most = options.window + 1
-        window = SimWindow(most, eye) if by_sim else Window(most)
-        topic, cls = _opened(eye, options)
-        _subscribe(eye, topic, options, filtered(window.hear, cls, passes, options))
+        window = SimWindow(most, direct_node) if by_sim else MessageWindow(most)
+        topic, cls = _opened(direct_node, options)
+        _subscribe(direct_node, topic, options, filtered(window.hear, cls, passes, options))
         from ros2_on_pip.rates import (
             measure_rate,  # takes a moment, and the first messages need one
         )
 
         while True:
-            eye.until(lambda: False, EVERY_S)
+            direct_node.until(lambda: False, EVERY_S)
             if window.something_new():
                 arrivals = list(window.arrivals)
                 rate = measure_rate(arrivals) or few_rate(arrivals)
                 if rate:
-                    print("\n".join(hz_lines(rate, _unknown_losses(eye, topic, options))))
+                    print("\n".join(hz_lines(rate, _unknown_losses(direct_node, topic, options))))
 
 
 def filtered(
@@ -148,9 +148,9 @@ def hz_lines(rate: Rate, losses_unknown: str) -> list[str]:
     ]
 
 
-def _unknown_losses(eye: Eye, topic: str, options: argparse.Namespace) -> str:
+def _unknown_losses(direct_node: DirectNode, topic: str, options: argparse.Namespace) -> str:
     """Why a gap in the numbers would tell nothing; empty where it does."""
-    publishers = len(eye.publishers(topic))
+    publishers = len(direct_node.publishers(topic))
     if options.filter:
         return "not known, because --filter leaves messages out"
     return f"not known, because {publishers} nodes publish here" if publishers > 1 else ""
@@ -158,18 +158,18 @@ def _unknown_losses(eye: Eye, topic: str, options: argparse.Namespace) -> str:
 
 def bw(options: argparse.Namespace) -> int:
     """`ros2 topic bw TOPIC`."""
-    with Eye.asked_by(options) as eye:
-        window = Window(options.window)
-        topic, _ = _opened(eye, options)
-        _subscribe(eye, topic, options, window.hear)
+    with DirectNode.asked_by(options) as direct_node:
+        window = MessageWindow(options.window)
+        topic, _ = _opened(direct_node, options)
+        _subscribe(direct_node, topic, options, window.hear)
         print(f"Subscribed to [{topic}]")
         while True:
-            eye.until(lambda: False, EVERY_S)
+            direct_node.until(lambda: False, EVERY_S)
             if len(window.arrivals) > 1:
                 print("\n".join(bw_lines(list(window.arrivals), time.monotonic_ns())))
 
 
-class NoHeader(Problem):
+class NoHeader(CommandProblem):
     """Only a message with a header tells when it was made."""
 
     def __init__(self, topic: str, type_name: str) -> None:
@@ -205,14 +205,14 @@ class Ages:
 
 def delay(options: argparse.Namespace) -> int:
     """`ros2 topic delay TOPIC`."""
-    with Eye.asked_by(options) as eye:
-        topic, cls = _opened(eye, options)
+    with DirectNode.asked_by(options) as direct_node:
+        topic, cls = _opened(direct_node, options)
         if "header" not in cls.get_fields_and_field_types():
             raise NoHeader(topic, name_of(cls))
-        ages = Ages(options.window, eye.node.get_clock())
-        _subscribe(eye, topic, options, ages.hear, raw=False)
+        ages = Ages(options.window, direct_node.node.get_clock())
+        _subscribe(direct_node, topic, options, ages.hear, raw=False)
         while True:
-            eye.until(lambda: False, EVERY_S)
+            direct_node.until(lambda: False, EVERY_S)
             print("".join(f"{line}\n" for line in ages.lines()), end="")
 
 
@@ -225,19 +225,23 @@ def delay_lines(delays_s: Collection[float]) -> list[str]:
     ]
 
 
-def _opened(eye: Eye, options: argparse.Namespace) -> tuple[str, Any]:
+def _opened(direct_node: DirectNode, options: argparse.Namespace) -> tuple[str, Any]:
     """The topic of `options` and its class, as soon as somebody has it."""
     topic = topic_in(options)
-    eye.settle()
-    return topic, class_of(awaited_type(eye, topic), "msg")
+    direct_node.settle()
+    return topic, class_of(awaited_type(direct_node, topic), "msg")
 
 
 def _subscribe(
-    eye: Eye, topic: str, options: argparse.Namespace, hear: Callable[..., None], raw: bool = True
+    direct_node: DirectNode,
+    topic: str,
+    options: argparse.Namespace,
+    hear: Callable[..., None],
+    raw: bool = True,
 ) -> None:
     options.qos_depth = options.qos_depth or DEPTH
-    profile = matching(options, eye.publishers(topic))
-    subscribe(eye, topic, known_type(eye, topic), profile, hear, raw=raw)
+    profile = matching(options, direct_node.publishers(topic))
+    subscribe(direct_node, topic, known_type(direct_node, topic), profile, hear, raw=raw)
 
 
 def bw_lines(arrivals: list[Arrival], now_ns: int) -> list[str]:

@@ -6,7 +6,7 @@ import socket
 import struct
 from types import TracebackType
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 
 GROUP, PORT = "225.0.0.1", 49150
 """Those of the real tool."""
@@ -14,7 +14,7 @@ GROUP, PORT = "225.0.0.1", 49150
 LONGEST = 4096
 
 
-class NoMulticast(Problem):
+class NoMulticast(CommandProblem):
     """The network of this computer refuses."""
 
     def __init__(self, doing: str, group: str, fault: OSError) -> None:
@@ -39,7 +39,7 @@ class _Socket:
         self._socket.close()
 
 
-class Voice(_Socket):
+class MulticastSender(_Socket):
     """Sends to a group. A context manager."""
 
     def __init__(self, group: str, port: int, ttl: int | None = None) -> None:
@@ -49,7 +49,7 @@ class Voice(_Socket):
         if ttl is not None:
             self._socket.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, min(ttl, 255))
 
-    def __enter__(self) -> Voice:
+    def __enter__(self) -> MulticastSender:
         return self
 
     def send(self, text: str) -> None:
@@ -60,14 +60,14 @@ class Voice(_Socket):
             raise NoMulticast("sending to", self._group, fault) from fault
 
 
-class Ear(_Socket):
+class MulticastReceiver(_Socket):
     """Hears a group, beside others who do. A context manager."""
 
     def __init__(self, group: str, port: int) -> None:
         super().__init__()
         self._group, self._port = group, port
 
-    def __enter__(self) -> Ear:
+    def __enter__(self) -> MulticastReceiver:
         """Raises NoMulticast."""
         membership = struct.pack("4sl", socket.inet_aton(self._group), socket.INADDR_ANY)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 
 
-class BadName(Problem):
+class BadName(CommandProblem):
     """ROS does not allow the name."""
 
     def __init__(self, name: str, why: str) -> None:

@@ -21,17 +21,24 @@ class Near:
     how: How
 
     @property
-    def slip(self) -> str:
-        """Where two names differ by a letter or two: which, as /alve and /alive look alike."""
+    def missing(self) -> str:
+        """Where two names differ in one place: the letters that are wanted there, and not there."""
+        return self._slip[0]
+
+    @property
+    def extra(self) -> str:
+        """The same: the letters that are there, and not wanted."""
+        return self._slip[1]
+
+    @property
+    def _slip(self) -> tuple[str, str]:
+        """Which letters, as /alve and /alive look alike; two empty texts for several places."""
         pieces = difflib.SequenceMatcher(None, self.wanted, self.found).get_opcodes()
         others = [piece for piece in pieces if piece[0] != "equal"]
         if len(others) != 1:
-            return ""
+            return "", ""
         ((_, begin, end, at, to),) = others
-        missing, extra = self.wanted[begin:end], self.found[at:to]
-        if missing and extra:
-            return f"{extra!r} stands where {missing!r} is wanted"
-        return f"{missing!r} is missing" if missing else f"{extra!r} is too much"
+        return self.wanted[begin:end], self.found[at:to]
 
     @property
     def exact(self) -> bool:

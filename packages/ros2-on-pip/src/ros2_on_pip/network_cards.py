@@ -37,7 +37,7 @@ NO_ADDRESS = "00:00:00:00:00:00"
 
 
 @dataclass(frozen=True)
-class Card:
+class NetworkCard:
     """A network card: its name, its flags, and its addresses."""
 
     name: str
@@ -50,17 +50,17 @@ class Card:
     inet6: tuple[str, ...]
 
 
-def cards() -> list[Card]:
+def cards() -> list[NetworkCard]:
     """Every card, in the kernel's order. Raises OSError."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
         addresses = _addresses(asked)
         return [_card(asked, name, addresses.get(name, ())) for _, name in socket.if_nameindex()]
 
 
-def _card(asked: socket.socket, name: str, inet4: tuple[str, ...]) -> Card:
+def _card(asked: socket.socket, name: str, inet4: tuple[str, ...]) -> NetworkCard:
     bits = struct.unpack_from("H", _answer(asked, _FLAGS, name), _NAME_BYTES)[0]
     ether = _said(name, "address")
-    return Card(
+    return NetworkCard(
         name,
         tuple(flag for at, flag in enumerate(FLAGS) if bits >> at & 1),
         _said(name, "mtu"),

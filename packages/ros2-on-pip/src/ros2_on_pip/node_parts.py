@@ -13,12 +13,12 @@ SEND_GOAL, FEEDBACK = "/_action/send_goal", "/_action/feedback"
 GOAL_SUFFIX, FEEDBACK_SUFFIX = "_SendGoal", "_FeedbackMessage"
 
 
-def parts_of(eye: Any, node: str, hidden: bool = False) -> dict[str, TypesByName]:
+def parts_of(direct_node: Any, node: str, hidden: bool = False) -> dict[str, TypesByName]:
     """The parts that `ros2 node info` shows, by their titles, in order."""
-    services, clients = eye.of_node("service", node), eye.of_node("client", node)
+    services, clients = direct_node.of_node("service", node), direct_node.of_node("client", node)
     return {
-        "Subscribers": _shown(eye.of_node("subscriber", node), hidden),
-        "Publishers": _shown(eye.of_node("publisher", node), hidden),
+        "Subscribers": _shown(direct_node.of_node("subscriber", node), hidden),
+        "Publishers": _shown(direct_node.of_node("publisher", node), hidden),
         "Service Servers": _shown(services, hidden),
         "Service Clients": _shown(clients, hidden),
         "Action Servers": actions_in(services),
@@ -39,19 +39,19 @@ def actions_in(services: TypesByName) -> TypesByName:
     }
 
 
-def actions(eye: Any) -> dict[str, list[str]]:
+def actions(direct_node: Any) -> dict[str, list[str]]:
     """Every action in the graph, with its types: of servers and of clients."""
     found: dict[str, list[str]] = {}
-    for name, parties in (*by_action(eye, "service"), *by_action(eye, "client")):
+    for name, parties in (*by_action(direct_node, "service"), *by_action(direct_node, "client")):
         types = found.setdefault(name, [])
         types += [kind for _, kinds in parties for kind in kinds if kind not in types]
     return dict(sorted(found.items()))
 
 
-def by_action(eye: Any, role: str) -> list[tuple[str, list[Party]]]:
+def by_action(direct_node: Any, role: str) -> list[tuple[str, list[Party]]]:
     """Each action with the nodes that serve it (role `service`) or use it (`client`)."""
     found: dict[str, list[Party]] = {}
-    for node in eye.nodes(hidden=True):
-        for name, types in actions_in(eye.of_node(role, node)).items():
+    for node in direct_node.nodes(hidden=True):
+        for name, types in actions_in(direct_node.of_node(role, node)).items():
             found.setdefault(name, []).append((node, types))
     return sorted(found.items())

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ros2_on_pip.absent import ABSENT
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 from ros2_on_pip.unbuilt import advice
 
 PROGRAMS = ("demo_nodes_py", "teleop_twist_keyboard", "tf2_ros", "tf2_tools")
@@ -19,7 +19,7 @@ SOURCE_IT = (
 )
 
 
-class PackageNotFound(Problem):
+class PackageNotFound(CommandProblem):
     """No sourced workspace has the package."""
 
     def __init__(self, package: str) -> None:
@@ -34,7 +34,7 @@ def _not_found(package: str) -> str:
     return f"Package '{package}' not found.{near}\n{known or SOURCE_IT}"
 
 
-class NoExecutable(Problem):
+class NoSuchExecutable(CommandProblem):
     """The package has no such executable."""
 
     def __init__(self, package: str, executable: str, found: Iterable[str]) -> None:
@@ -46,7 +46,7 @@ class NoExecutable(Problem):
         )
 
 
-class SeveralExecutables(Problem):
+class SeveralExecutables(CommandProblem):
     """Two folders of the package have an executable of that name."""
 
     def __init__(self, paths: Iterable[Path]) -> None:
@@ -110,12 +110,12 @@ def name_of(executable: Path) -> str:
 def executable(package: str, name: str) -> Path:
     """The executable `name` of `package`.
 
-    Raises PackageNotFound, NoExecutable, SeveralExecutables.
+    Raises PackageNotFound, NoSuchExecutable, SeveralExecutables.
     """
     every = executables(package)
     chosen = [place for place in every if name_of(place) == name]
     if not chosen:
-        raise NoExecutable(package, name, map(name_of, every))
+        raise NoSuchExecutable(package, name, map(name_of, every))
     if len(chosen) > 1:
         raise SeveralExecutables(chosen)
     return chosen[0]

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from ros2_on_pip.parameters import flat
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 
 INSIDE = "ros__parameters"
 
 
-class BadParameterFile(Problem):
+class BadParameterFile(CommandProblem):
     """The file cannot be read as parameters."""
 
     def __init__(self, path: Path, reason: str) -> None:
@@ -22,7 +22,7 @@ class BadParameterFile(Problem):
         )
 
 
-class NothingForNode(Problem):
+class NothingForNode(CommandProblem):
     """The file has values, and none of them is for this node."""
 
     def __init__(self, path: Path, node: str, there: list[str]) -> None:

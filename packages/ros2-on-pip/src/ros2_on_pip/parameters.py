@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ros2_on_pip.calling import ask
-from ros2_on_pip.discovery import Eye
+from ros2_on_pip.discovery import DirectNode
 
 WORDS = {
     1: ("boolean", "Boolean value is:", "bool_value"),
@@ -26,49 +26,51 @@ SERVICE = "list_parameters"
 BOOL, INTEGER, DOUBLE, STRING, BOOLS, INTEGERS, DOUBLES, STRINGS = 1, 2, 3, 4, 6, 7, 8, 9
 
 
-def names_of(eye: Eye, node: str, prefixes: Iterable[str] = ()) -> list[str]:
-    """The names of a node's parameters, in order. Raises NoAnswer."""
+def names_of(direct_node: DirectNode, node: str, prefixes: Iterable[str] = ()) -> list[str]:
+    """The names of a node's parameters, in order. Raises ServiceSilent."""
     from rcl_interfaces.srv import ListParameters
 
     request = ListParameters.Request(prefixes=list(prefixes))
-    answer = ask(eye, ListParameters, f"{node}/list_parameters", request)
+    answer = ask(direct_node, ListParameters, f"{node}/list_parameters", request)
     return sorted(answer.result.names)
 
 
-def values_of(eye: Eye, node: str, names: list[str]) -> list[Any]:
-    """The values of parameters, as rcl_interfaces/msg/ParameterValue. Raises NoAnswer."""
+def values_of(direct_node: DirectNode, node: str, names: list[str]) -> list[Any]:
+    """The values of parameters, as rcl_interfaces/msg/ParameterValue. Raises ServiceSilent."""
     from rcl_interfaces.srv import GetParameters
 
     request = GetParameters.Request(names=names)
-    return list(ask(eye, GetParameters, f"{node}/get_parameters", request).values)
+    return list(ask(direct_node, GetParameters, f"{node}/get_parameters", request).values)
 
 
-def descriptors_of(eye: Eye, node: str, names: list[str]) -> list[Any]:
-    """What a node says about its parameters. Raises NoAnswer."""
+def descriptors_of(direct_node: DirectNode, node: str, names: list[str]) -> list[Any]:
+    """What a node says about its parameters. Raises ServiceSilent."""
     from rcl_interfaces.srv import DescribeParameters
 
     request = DescribeParameters.Request(names=names)
-    answer = ask(eye, DescribeParameters, f"{node}/describe_parameters", request)
+    answer = ask(direct_node, DescribeParameters, f"{node}/describe_parameters", request)
     return list(answer.descriptors)
 
 
-def set_on(eye: Eye, node: str, values: Mapping[str, Any]) -> list[Any]:
-    """Set parameters, one by one; the results, in order. Raises NoAnswer."""
+def set_on(direct_node: DirectNode, node: str, values: Mapping[str, Any]) -> list[Any]:
+    """Set parameters, one by one; the results, in order. Raises ServiceSilent."""
     from rcl_interfaces.msg import Parameter
     from rcl_interfaces.srv import SetParameters
 
     parameters = [Parameter(name=name, value=message_of(v)) for name, v in values.items()]
     request = SetParameters.Request(parameters=parameters)
-    return list(ask(eye, SetParameters, f"{node}/set_parameters", request).results)
+    return list(ask(direct_node, SetParameters, f"{node}/set_parameters", request).results)
 
 
-def delete_on(eye: Eye, node: str, name: str) -> Any:
-    """Set one parameter to "not set", which takes its declaration away. Raises NoAnswer."""
+def delete_on(direct_node: DirectNode, node: str, name: str) -> Any:
+    """Set one parameter to "not set", which takes its declaration away. Raises ServiceSilent."""
     from rcl_interfaces.msg import Parameter
     from rcl_interfaces.srv import SetParameters
 
     request = SetParameters.Request(parameters=[Parameter(name=name)])
-    (result,) = ask(eye, SetParameters, f"{node}/set_parameters", request, again=False).results
+    (result,) = ask(
+        direct_node, SetParameters, f"{node}/set_parameters", request, again=False
+    ).results
     return result
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from ros2_on_pip.errors import RoslingsError
 
 
-class Problem(RoslingsError):
+class CommandProblem(RoslingsError):
     """A command cannot go on; its text is shown, and `ros2` hands `exit_code` to the shell.
 
     It is ROS's own code; a command of roslings that meets it ends with its `exit_status`.
@@ -24,7 +24,7 @@ def did_you_mean(wanted: str, names: Iterable[str]) -> str:
     return f" Did you mean {near.found}?" if near and near.how != "other" else ""
 
 
-class ServiceNotThere(Problem):
+class ServiceNotThere(CommandProblem):
     """No node offers the service."""
 
     def __init__(self, service: str, there: Iterable[str]) -> None:

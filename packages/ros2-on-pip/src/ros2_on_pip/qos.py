@@ -118,8 +118,8 @@ def matching(options: argparse.Namespace, publishers: Sequence[Any]) -> Any:
 def for_echo(options: argparse.Namespace, publishers: Sequence[Any]) -> Any:
     """What `topic echo` asks for.
 
-    As the full tool does it: any single policy that is given starts from the preset, sensor_data,
-    and nothing of it is matched to the publishers.
+    It is as the full tool does it. Any single policy that is given starts from the preset,
+    sensor_data, and nothing of it is matched to the publishers.
     """
     profile = chosen(options, SENSOR_DATA)
     if any_policy_in(options):

@@ -31,7 +31,7 @@ ANCHORED = 0.8
 """Below this share of a random walk's spread, the times keep to a grid."""
 
 
-class MessageSeen(Protocol):
+class MessageTimes(Protocol):
     """What is known of a message: in nanoseconds, by the sender's clock and by the receiver's."""
 
     @property
@@ -112,9 +112,9 @@ class Rate:
     def made_uneven_by(self, wait_s: float) -> bool:
         """It is uneven, and so long a wait for a processor is enough to have made it so.
 
-        A message that is late by half a period makes two periods odd, the one before it and the
-        one after; what counts is how many more there are than a busy machine may delay. Arrivals
-        that the stamps do not bear out are uneven from less: messages wait behind each other.
+        A message that is late by half a period makes two periods odd, the one before it and the one
+        after. What counts is how many more there are than a busy machine may delay. Arrivals that
+        the stamps do not bear out are uneven from less: messages wait behind each other.
         """
         too_many = (self.uneven_share() - MOST_UNEVEN) * len(self.periods_s)
         enough_s = too_many / 2 * (self.period_s / 2)
@@ -156,8 +156,8 @@ class Rate:
     def held_up(self, held_s: float) -> Rate:
         """The same rate, of a node that was held up for `held_s` while it was watched.
 
-        That makes a loop that sleeps slower than it is, and each of its waits shows in all later
-        times; a timer keeps to its grid.
+        That makes a loop that sleeps slower than it is. Each of its waits shows in all later times,
+        while a timer keeps to its grid.
         """
         if self.anchored:
             return self
@@ -170,11 +170,11 @@ def _odd_share(periods_s: Sequence[float], mean_s: float) -> float:
     return len(odd) / len(periods_s)
 
 
-def lateness_s(messages: Sequence[MessageSeen], hz: float) -> float:
+def lateness_s(messages: Sequence[MessageTimes], hz: float) -> float:
     """How late a timer of `hz` was, all its turns together, in seconds.
 
     A loop that sleeps is slower by as much, for each of its waits shows in all later times. The
-    timer's grid goes through that message for which the others are late by the least; a turn that
+    timer's grid goes through that message for which the others are late by the least. A turn that
     was left out was late by a period.
     """
     times_s, _ = _times(messages)
@@ -188,7 +188,7 @@ def lateness_s(messages: Sequence[MessageSeen], hz: float) -> float:
     return late_s + max(0, left_out) * period_s
 
 
-def measure_rate(messages: Sequence[MessageSeen]) -> Rate | None:
+def measure_rate(messages: Sequence[MessageTimes]) -> Rate | None:
     """The rate of `messages`, in the order of arrival; None where there are too few.
 
     The times are the publisher's, so a message that waited in a queue does not bend them. The
@@ -238,9 +238,9 @@ def rate_of(times_s: Sequence[float], counts: Sequence[int], stamped: bool) -> R
 def _relative_uncertainty(periods_s: Sequence[float], walk: float, span_s: float) -> float:
     """Three standard errors of the rate, as a part of it.
 
-    What is uncertain is the time from the first message to the last. Its variance is that of one
-    period for a timer, which keeps to its grid, and n times that for a loop that sleeps, which
-    wanders; the periods' own correlation tells how much of the two it is.
+    What is uncertain is the time from the first message to the last. For a timer, which keeps to
+    its grid, its variance is that of one period. For a loop that sleeps, which wanders, it is n
+    times that. The periods' own correlation tells how much of the two it is.
     """
     times = max(1.0, len(periods_s) * walk)
     return STANDARD_ERRORS * statistics.pstdev(periods_s) * float(times**0.5) / span_s
@@ -250,8 +250,8 @@ def _walk(periods_s: Sequence[float]) -> float:
     """How fast the variance of the whole grows with the count: 0 on a grid, 1 for a random walk.
 
     For times that differ independently from a grid, neighbouring periods have a correlation of
-    -1/2; for independent periods 0: 1 + 2 r is 0 or 1. Estimated from few, r has a standard error
-    of about 1 / sqrt(n), which is added to be on the safe side.
+    -1/2. For independent periods it is 0. So 1 + 2 r is 0 or 1. Estimated from few, r has a
+    standard error of about 1 / sqrt(n), which is added to be on the safe side.
     """
     mean_s = statistics.fmean(periods_s)
     off_s = [p - mean_s for p in periods_s]
@@ -262,7 +262,7 @@ def _walk(periods_s: Sequence[float]) -> float:
     return float(max(0.0, 1 + 2 * (correlation + len(periods_s) ** -0.5)))
 
 
-def _times(messages: Sequence[MessageSeen]) -> tuple[list[float], bool]:
+def _times(messages: Sequence[MessageTimes]) -> tuple[list[float], bool]:
     """Times of sending in seconds, and whether they are the publisher's own stamps."""
     arrivals_s = [m.arrival_ns / NS_PER_S for m in messages]
     stamps_s = [m.source_ns / NS_PER_S for m in messages if m.source_ns is not None]
@@ -274,7 +274,7 @@ def _times(messages: Sequence[MessageSeen]) -> tuple[list[float], bool]:
 def _agree(stamps_s: Sequence[float], arrivals_s: Sequence[float]) -> bool:
     """Stamps grow, and the quickest messages of the first half took as long as of the second.
 
-    A message can be late, and many are on a busy computer; but the quickest of several shows how
+    A message can be late, and many are on a busy computer. But the quickest of several shows how
     far the two clocks are apart, and that must stay.
     """
     if len(stamps_s) < 2:
@@ -286,7 +286,7 @@ def _agree(stamps_s: Sequence[float], arrivals_s: Sequence[float]) -> bool:
     return rising and abs(min(late_s[:half]) - min(late_s[half:])) <= bound_s
 
 
-def counts_of(messages: Sequence[MessageSeen]) -> list[int]:
+def counts_of(messages: Sequence[MessageTimes]) -> list[int]:
     """The publisher's own count where it has one that grows; else the order of arrival."""
     sequence = [m.sequence for m in messages if m.sequence is not None]
     growing = all(earlier < later for earlier, later in pairwise(sequence))

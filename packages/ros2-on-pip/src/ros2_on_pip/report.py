@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 
 if TYPE_CHECKING:
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
 Item = tuple[str, object]
 NOT_ASKED = "not known here: it stands in rosdistro, on the internet, which is not asked"
@@ -38,45 +38,47 @@ class Section:
 
 
 @dataclass(frozen=True)
-class Part:
+class ReportPart:
     """How one section is made, and the themes of our checks that it belongs to."""
 
     title: str
     themes: tuple[str, ...]
-    items: Callable[[Eye], Iterator[Item]]
+    items: Callable[[DirectNode], Iterator[Item]]
     of_packages: bool = False
 
-    def section(self, eye: Eye) -> Section:
+    def section(self, direct_node: DirectNode) -> Section:
         """The section; what cannot be looked at is said in its place."""
         try:
-            return Section(self.title, tuple(self.items(eye)))
-        except (ImportError, OSError, Problem) as fault:
+            return Section(self.title, tuple(self.items(direct_node)))
+        except (ImportError, OSError, CommandProblem) as fault:
             return Section(self.title, (("error", str(fault).splitlines()[0]),))
 
 
-def sections(parts: list[Part]) -> list[Section]:
+def sections(parts: list[ReportPart]) -> list[Section]:
     """What is to be said now, with one look at the nodes that run."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
     try:
-        with Eye() as eye:
-            eye.settle()
-            return [part.section(eye) for part in parts]
-    except Problem as fault:  # no node of ours can be opened: what needs none is told all the same
+        with DirectNode() as direct_node:
+            direct_node.settle()
+            return [part.section(direct_node) for part in parts]
+    except (
+        CommandProblem
+    ) as fault:  # no node of ours can be opened: what needs none is told all the same
         return [part.section(_Blind(fault)) for part in parts]  # type: ignore[arg-type]  # it raises
 
 
 class _Blind:
-    """In place of an eye where ROS does not start: it says why as soon as it is asked."""
+    """In place of our node where ROS does not start: it says why as soon as it is asked."""
 
-    def __init__(self, fault: Problem) -> None:
+    def __init__(self, fault: CommandProblem) -> None:
         self._fault = fault
 
     def __getattr__(self, name: str) -> Any:
         raise self._fault
 
 
-def _network(_: Eye) -> Iterator[Item]:
+def _network(_: DirectNode) -> Iterator[Item]:
     from ros2_on_pip.network_cards import cards
 
     for card in cards():
@@ -94,7 +96,7 @@ def _network(_: Eye) -> Iterator[Item]:
         yield from ((name, value) for name, value in said.items() if value)
 
 
-def _packages(_: Eye) -> Iterator[Item]:
+def _packages(_: DirectNode) -> Iterator[Item]:
     from ros2_on_pip.packages import packages
 
     yield "latest", NOT_ASKED
@@ -114,37 +116,37 @@ def _version(package: str) -> str:
     return (root.findtext("version") or "").strip()
 
 
-def _platform(_: Eye) -> Iterator[Item]:
+def _platform(_: DirectNode) -> Iterator[Item]:
     yield "system", platform.system()
     yield "platform info", platform.platform()
     yield "release", platform.release()
     yield "processor", platform.processor() or platform.machine()
 
 
-def _qos(eye: Eye) -> Iterator[Item]:
+def _qos(direct_node: DirectNode) -> Iterator[Item]:
     from rclpy.qos import QoSCompatibility, qos_check_compatible
 
     none = True
-    for topic in _topics(eye):
-        for publisher in eye.publishers(topic):
-            for ear in eye.ears(topic):
+    for topic in _topics(direct_node):
+        for publisher in direct_node.publishers(topic):
+            for subscription in direct_node.subscriptions(topic):
                 none = False
-                fits, why = qos_check_compatible(publisher.qos_profile, ear.qos_profile)
+                fits, why = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
                 yield "topic [type]", f"{topic} [{publisher.topic_type}]"
                 yield "publisher node", publisher.node_name
-                yield "subscriber node", ear.node_name
+                yield "subscriber node", subscription.node_name
                 yield "compatibility status", "OK" if fits == QoSCompatibility.OK else why
     if none:
         yield "compatibility status", "No publisher/subscriber pairs found"
 
 
-def _middleware(_: Eye) -> Iterator[Item]:
+def _middleware(_: DirectNode) -> Iterator[Item]:
     from rclpy.utilities import get_rmw_implementation_identifier
 
     yield "middleware name", get_rmw_implementation_identifier()
 
 
-def _ros(_: Eye) -> Iterator[Item]:
+def _ros(_: DirectNode) -> Iterator[Item]:
     yield "distribution name", "jazzy"
     yield "distribution type", "ros2"
     yield "distribution status", NOT_ASKED
@@ -162,24 +164,24 @@ def _kind_of_installation() -> str:
     return "apt" if place.is_relative_to("/opt/ros/jazzy") else "built from source"
 
 
-def _topic_list(eye: Eye) -> Iterator[Item]:
-    for topic in _topics(eye) or ["none"]:
+def _topic_list(direct_node: DirectNode) -> Iterator[Item]:
+    for topic in _topics(direct_node) or ["none"]:
         yield "topic", topic
-        yield "publisher count", len(eye.publishers(topic)) if topic != "none" else 0
-        yield "subscriber count", len(eye.ears(topic)) if topic != "none" else 0
+        yield "publisher count", len(direct_node.publishers(topic)) if topic != "none" else 0
+        yield "subscriber count", len(direct_node.subscriptions(topic)) if topic != "none" else 0
 
 
-def _topics(eye: Eye) -> list[str]:
-    return [name for name in eye.topics(hidden=False) if name not in OF_EVERY_NODE]
+def _topics(direct_node: DirectNode) -> list[str]:
+    return [name for name in direct_node.topics(hidden=False) if name not in OF_EVERY_NODE]
 
 
 PARTS = (
-    Part("NETWORK CONFIGURATION", ("network",), _network),
-    Part("PACKAGE VERSIONS", ("install",), _packages, of_packages=True),
-    Part("PLATFORM INFORMATION", ("computer",), _platform),
-    Part("QOS COMPATIBILITY LIST", ("live",), _qos),
-    Part("RMW MIDDLEWARE", ("install", "live"), _middleware),
-    Part("ROS 2 INFORMATION", ("install", "shell"), _ros),
-    Part("TOPIC LIST", ("live",), _topic_list),
+    ReportPart("NETWORK CONFIGURATION", ("network",), _network),
+    ReportPart("PACKAGE VERSIONS", ("install",), _packages, of_packages=True),
+    ReportPart("PLATFORM INFORMATION", ("computer",), _platform),
+    ReportPart("QOS COMPATIBILITY LIST", ("live",), _qos),
+    ReportPart("RMW MIDDLEWARE", ("install", "live"), _middleware),
+    ReportPart("ROS 2 INFORMATION", ("install", "shell"), _ros),
+    ReportPart("TOPIC LIST", ("live",), _topic_list),
 )
 """In the order of the real one."""

@@ -21,7 +21,7 @@ LITTLE_ENDIAN = 0x01
 SENTINEL = 0x01
 
 
-class Part(NamedTuple):
+class Submessage(NamedTuple):
     """A submessage (9.4.5)."""
 
     kind: int
@@ -31,7 +31,7 @@ class Part(NamedTuple):
     body: bytes
 
 
-class Parameter(NamedTuple):
+class RtpsParameter(NamedTuple):
     """One of a list (9.4.2.11)."""
 
     number: int
@@ -46,7 +46,7 @@ def ports_of(domain: int) -> range:
     return range(first, first + PORTS_PER_DOMAIN)
 
 
-def parts_in(message: bytes) -> Iterator[Part]:
+def parts_in(message: bytes) -> Iterator[Submessage]:
     """The submessages of a message; none where it is no RTPS."""
     place = HEAD
     while message.startswith(b"RTPS") and place + PART_HEAD <= len(message):
@@ -54,15 +54,15 @@ def parts_in(message: bytes) -> Iterator[Part]:
         order = "<" if flags & LITTLE_ENDIAN else ">"
         (length,) = struct.unpack(f"{order}H", message[place + 2 : place + PART_HEAD])
         end = place + PART_HEAD + length if length else len(message)  # the last may give none
-        yield Part(kind, flags, order, message[place + PART_HEAD : end])
+        yield Submessage(kind, flags, order, message[place + PART_HEAD : end])
         place = end
 
 
-def parameters_in(listed: bytes, order: str, place: int = 0) -> Iterator[Parameter]:
+def parameters_in(listed: bytes, order: str, place: int = 0) -> Iterator[RtpsParameter]:
     """The parameters of a list that begins at `place`, and at last the mark of its end."""
     while place + 4 <= len(listed):
         number, length = struct.unpack(f"{order}HH", listed[place : place + 4])
         begin, place = place + 4, place + 4 + (0 if number == SENTINEL else length)
-        yield Parameter(number, listed[begin:place], place)
+        yield RtpsParameter(number, listed[begin:place], place)
         if number == SENTINEL:
             return

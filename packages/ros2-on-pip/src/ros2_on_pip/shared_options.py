@@ -153,26 +153,30 @@ def shape_options(parser: argparse.ArgumentParser) -> None:
 
 def complete_topics(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Every topic, for the Tab key."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye() as eye:
-        return list(eye.settle().topics(getattr(parsed_args, "include_hidden_topics", False)))
+    with DirectNode() as direct_node:
+        return list(
+            direct_node.settle().topics(getattr(parsed_args, "include_hidden_topics", False))
+        )
 
 
 def complete_nodes(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Every node, for the Tab key."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye() as eye:
-        return eye.settle().nodes(getattr(parsed_args, "include_hidden_nodes", False))
+    with DirectNode() as direct_node:
+        return direct_node.settle().nodes(getattr(parsed_args, "include_hidden_nodes", False))
 
 
 def complete_services(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """Every service, for the Tab key."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye() as eye:
-        return list(eye.settle().services(getattr(parsed_args, "include_hidden_services", False)))
+    with DirectNode() as direct_node:
+        return list(
+            direct_node.settle().services(getattr(parsed_args, "include_hidden_services", False))
+        )
 
 
 def complete_interfaces(kind: str) -> Any:
@@ -193,12 +197,12 @@ def complete_type_of(what: str, kind: str, look: Any = None) -> Any:
     """
 
     def complete(parsed_args: argparse.Namespace, **how: Any) -> list[str]:
-        from ros2_on_pip.discovery import Eye
+        from ros2_on_pip.discovery import DirectNode
         from ros2_on_pip.names import absolute
 
-        with Eye() as eye:
-            eye.settle()
-            found = look(eye) if look else getattr(eye, f"{what}s")()
+        with DirectNode() as direct_node:
+            direct_node.settle()
+            found = look(direct_node) if look else getattr(direct_node, f"{what}s")()
         types: list[str] = found.get(absolute(getattr(parsed_args, f"{what}_name")), [])
         return types or list(complete_interfaces(kind)(**how))
 
@@ -210,9 +214,9 @@ def complete_values(type_of: str) -> Any:
 
     def complete(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
         from ros2_on_pip.interfaces import empty_message
-        from ros2_on_pip.yaml_out import Shape, as_yaml
+        from ros2_on_pip.yaml_out import YamlOptions, as_yaml
 
-        return [as_yaml(empty_message(getattr(parsed_args, type_of)), Shape(longest=None))]
+        return [as_yaml(empty_message(getattr(parsed_args, type_of)), YamlOptions(longest=None))]
 
     return complete
 

@@ -6,14 +6,14 @@ import os
 import sys
 from pathlib import Path
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.profiles import QUICK_DISCOVERY
 
 LOCAL = "LOCALHOST"
 LARGEST_DOMAIN = 232
 
 
-class BadDomain(Problem):
+class BadDomain(CommandProblem):
     """ROS_DOMAIN_ID is no number that ROS can use."""
 
     def __init__(self, text: str) -> None:
@@ -23,7 +23,7 @@ class BadDomain(Problem):
         )
 
 
-class NoMiddleware(Problem):
+class NoMiddleware(CommandProblem):
     """RMW_IMPLEMENTATION names a middleware that is not installed."""
 
     def __init__(self, name: str, there: list[str]) -> None:

@@ -26,8 +26,8 @@ _interrupted = Event()
 def run(act: Callable[[list[str]], int]) -> int:
     """What `act` returns for the words of the command line that are not ROS's own.
 
-    No shutdown at the end: rclpy's signal handler ends the context in a thread of its own, and may
-    come between the steps of that call.
+    There is no shutdown at the end. rclpy's signal handler ends the context in a thread of its own.
+    It may come between the steps of that call.
     """
     return _until_interrupted(lambda: _begun(act))
 

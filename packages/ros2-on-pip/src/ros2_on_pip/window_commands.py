@@ -9,7 +9,7 @@ from functools import partial
 from ros2_on_pip.cli import STOPPED, explained
 from ros2_on_pip.handover import hand_over
 from ros2_on_pip.well_known import absent
-from ros2_on_pip.windows import Window, typed_for, window_of
+from ros2_on_pip.windows import WindowReplacement, command_for, window_of
 from ros2_on_pip.words import WRONG_USE
 
 
@@ -20,11 +20,11 @@ def main(name: str, argv: Sequence[str]) -> int:
         return _opened(window, argv)
     told = absent(name)
     assert told is not None, name
-    print("\n".join(filter(None, [told.told(name), typed_for(name)])), file=sys.stderr)
+    print("\n".join(filter(None, [told.told(name), command_for(name)])), file=sys.stderr)
     return WRONG_USE
 
 
-def _opened(window: Window, argv: Sequence[str]) -> int:
+def _opened(window: WindowReplacement, argv: Sequence[str]) -> int:
     try:
         return explained(lambda: window.open(argv))
     except KeyboardInterrupt:

@@ -16,7 +16,7 @@ from ros2_on_pip.unbuilt import advice
 GROUP = "ros2_on_pip.windows"
 
 
-class Window(Protocol):
+class WindowReplacement(Protocol):
     """What opens in place of a window."""
 
     @property
@@ -24,28 +24,28 @@ class Window(Protocol):
         """Whether all that it needs is installed."""
 
     @property
-    def typed(self) -> str:
+    def command(self) -> str:
         """What a person types to install and open it; empty where that cannot be said."""
 
     def open(self, argv: Sequence[str]) -> int:
-        """Stay until it is closed; the exit code. Raises Problem."""
+        """Stay until it is closed; the exit code. Raises CommandProblem."""
 
 
 @cache
-def _offered() -> dict[str, Window]:
-    found: dict[str, Window] = {}
+def _offered() -> dict[str, WindowReplacement]:
+    found: dict[str, WindowReplacement] = {}
     for point in entry_points(group=GROUP):
         found = {**point.load(), **found}
     return found
 
 
-def window_of(name: str) -> Window | None:
+def window_of(name: str) -> WindowReplacement | None:
     """What opens here in place of `name`; None where it is not installed, or is one's own."""
     window = _offered().get(name)
     return window if window and window.is_here and not advice(name) else None
 
 
-def typed_for(name: str) -> str:
+def command_for(name: str) -> str:
     """A line that names the window which could be here; empty where none is offered."""
     window = _offered().get(name)
-    return f"In your browser: {window.typed}" if window and window.typed else ""
+    return f"In your browser: {window.command}" if window and window.command else ""

@@ -19,7 +19,7 @@ _CHOICE = re.compile(
 )
 
 
-class Parser(argparse.ArgumentParser):
+class CommandParser(argparse.ArgumentParser):
     """argparse with one line where a word is wrong, and a near miss where there is one."""
 
     def error(self, message: str) -> NoReturn:

@@ -10,13 +10,13 @@ from typing import Any
 
 from ros2_on_pip.field_types import FLOATS, INTEGERS, TEXTS, FieldType, read_type
 from ros2_on_pip.interfaces import name_of
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 
 HEADER, TIME = "std_msgs/msg/Header", "builtin_interfaces/msg/Time"
 Stamp = Callable[[Any], None]
 
 
-class BadYaml(Problem):
+class BadYaml(CommandProblem):
     """The text is no YAML."""
 
     def __init__(self, text: str, fault: Any) -> None:
@@ -30,7 +30,7 @@ class BadYaml(Problem):
         )
 
 
-class NotFields(Problem):
+class NotFields(CommandProblem):
     """The YAML is fine, and holds no names of fields."""
 
     def __init__(self, text: str, type_name: str, fields: list[str]) -> None:
@@ -42,7 +42,7 @@ class NotFields(Problem):
         )
 
 
-class BadField(Problem):
+class BadField(CommandProblem):
     """A field does not exist, or its value does not fit."""
 
     def __init__(self, place: str, reason: str) -> None:

@@ -15,7 +15,7 @@ MORE = "..."
 
 
 @dataclass(frozen=True)
-class Shape:
+class YamlOptions:
     """How much of a message to show."""
 
     longest: int | None = 128
@@ -25,7 +25,7 @@ class Shape:
     flow: bool = False
 
 
-def as_yaml(value: Any, shape: Shape) -> str:
+def as_yaml(value: Any, shape: YamlOptions) -> str:
     """The YAML of a message, or of one field of it, ending with a newline."""
     return dumped(plain_of(value, shape), shape.flow)
 
@@ -66,7 +66,7 @@ def is_message(value: Any) -> bool:
     return hasattr(value, "get_fields_and_field_types")
 
 
-def plain_of(value: Any, shape: Shape) -> Any:
+def plain_of(value: Any, shape: YamlOptions) -> Any:
     """A message, or a part of one, as dicts, lists, numbers and texts."""
     if is_message(value):
         return _message(value, shape)
@@ -83,14 +83,14 @@ def _is_list(value: Any) -> bool:
     return isinstance(value, list | tuple | array.array) or type(value).__name__ == "ndarray"
 
 
-def _message(message: Any, shape: Shape) -> dict[str, Any]:
+def _message(message: Any, shape: YamlOptions) -> dict[str, Any]:
     return {
         name: _field(getattr(message, name), kind, shape)
         for name, kind in message.get_fields_and_field_types().items()
     }
 
 
-def _field(value: Any, kind: str, shape: Shape) -> Any:
+def _field(value: Any, kind: str, shape: YamlOptions) -> Any:
     if shape.no_arrays and _is_list(value):
         return _counted(value, kind)
     return plain_of(value, shape)
@@ -106,7 +106,7 @@ def _counted(value: Any, kind: str) -> str:
     return f"<sequence type: {of}{bound}, length: {len(value)}>"
 
 
-def _text(value: str, shape: Shape) -> str:
+def _text(value: str, shape: YamlOptions) -> str:
     if shape.no_texts:
         return f"<string length: <{len(value)}>>"
     if shape.longest is not None and len(value) > shape.longest:
@@ -114,12 +114,12 @@ def _text(value: str, shape: Shape) -> str:
     return value
 
 
-def _list(values: list[Any], shape: Shape) -> list[Any]:
+def _list(values: list[Any], shape: YamlOptions) -> list[Any]:
     shown = [plain_of(one, shape) for one in values[: shape.longest]]
     return shown if len(shown) == len(values) else [*shown, MORE]
 
 
-def as_csv(value: Any, shape: Shape, kind: str = "") -> str:
+def as_csv(value: Any, shape: YamlOptions, kind: str = "") -> str:
     """All values of a message in one line, parted by commas; an empty list is an empty column.
 
     `kind` is the type of the field that `value` is, as the message names it.
@@ -136,7 +136,7 @@ def as_csv(value: Any, shape: Shape, kind: str = "") -> str:
     return str(value)
 
 
-def _listed(value: Any, shape: Shape, kind: str) -> str:
+def _listed(value: Any, shape: YamlOptions, kind: str) -> str:
     if shape.no_arrays and kind:
         return _counted(value, kind)
     cells = [as_csv(one, shape) for one in value[: shape.longest]]
@@ -153,4 +153,4 @@ def _joined(cells: Iterable[str]) -> str:
 
 def as_indented(value: Any) -> str:
     """The YAML of a whole message as goals and results show it, with an empty line after it."""
-    return as_yaml(value, Shape(longest=None))
+    return as_yaml(value, YamlOptions(longest=None))

@@ -10,7 +10,7 @@ from rclpy.time import Time
 
 from ros2_on_pip.stand_ins._frames.buffer_core import stamped
 from ros2_on_pip.stand_ins._frames.euler import from_euler
-from ros2_on_pip.stand_ins._frames.motion import Motion
+from ros2_on_pip.stand_ins._frames.motion import RigidTransform
 
 SECOND_NS = 1_000_000_000
 NEWEST = Time()
@@ -20,7 +20,7 @@ def step(
     parent: str, child: str, time_s: float = 0.0, x_m: float = 1.0, yaw_rad: float = 0.0
 ) -> Any:
     """A TransformStamped: so far ahead, and turned to the left."""
-    motion = Motion((x_m, 0.0, 0.0), from_euler((0.0, 0.0, yaw_rad)))
+    motion = RigidTransform((x_m, 0.0, 0.0), from_euler((0.0, 0.0, yaw_rad)))
     return stamped(motion, parent, child, round(time_s * SECOND_NS))
 
 

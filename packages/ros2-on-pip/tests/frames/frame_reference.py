@@ -13,8 +13,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from transforms3d import affines, quaternions
 
-from ros2_on_pip.stand_ins._frames.history import Step
-from ros2_on_pip.stand_ins._frames.motion import Motion, Quaternion, Vector, matrix, normalized
+from ros2_on_pip.stand_ins._frames.history import ParentTransform
+from ros2_on_pip.stand_ins._frames.motion import (
+    Quaternion,
+    RigidTransform,
+    Vector,
+    matrix,
+    normalized,
+)
 from ros2_on_pip.stand_ins._frames.tree import FrameTree
 
 Array = Any
@@ -31,7 +37,7 @@ TURNS = (
     .filter(lambda q: math.hypot(*q) > 0.1)
     .map(normalized)
 )
-MOTIONS = st.builds(Motion, SHIFTS, TURNS)
+MOTIONS = st.builds(RigidTransform, SHIFTS, TURNS)
 """Of any rotation, and no more than a metre."""
 
 
@@ -53,20 +59,20 @@ def w_first(q: Quaternion) -> tuple[float, float, float, float]:
     return q[3], q[0], q[1], q[2]
 
 
-def by_transforms3d(motion: Motion) -> Array:
+def by_transforms3d(motion: RigidTransform) -> Array:
     """As 4 by 4."""
     turn = quaternions.quat2mat(w_first(motion.rotation))
     return affines.compose(motion.shift, turn, numpy.ones(3))
 
 
-def as_matrix(motion: Motion) -> Array:
+def as_matrix(motion: RigidTransform) -> Array:
     """Ours, as 4 by 4."""
     made = numpy.identity(4)
     made[:3, :3], made[:3, 3] = matrix(motion.rotation), motion.shift
     return made
 
 
-def between_by_transforms3d(a: Motion, b: Motion, part: float) -> Array:
+def between_by_transforms3d(a: RigidTransform, b: RigidTransform, part: float) -> Array:
     """On the shorter arc, by the axis and the angle between the two.
 
     The angle by atan2: transforms3d takes it from a cosine, which tells small ones to 1e-8 only.
@@ -94,10 +100,10 @@ def any_turn(chance: random.Random) -> Quaternion:
     )
 
 
-def any_motion(chance: random.Random) -> Motion:
+def any_motion(chance: random.Random) -> RigidTransform:
     """Within ten metres."""
     shift: Vector = (chance.uniform(-10, 10), chance.uniform(-10, 10), chance.uniform(-10, 10))
-    return Motion(shift, any_turn(chance))
+    return RigidTransform(shift, any_turn(chance))
 
 
 @dataclass
@@ -106,7 +112,7 @@ class RandomTree:
 
     chance: random.Random
     tree: FrameTree = field(default_factory=lambda: FrameTree(KEPT_NS))
-    said: dict[str, tuple[str, dict[int, Motion]]] = field(default_factory=dict)
+    said: dict[str, tuple[str, dict[int, RigidTransform]]] = field(default_factory=dict)
     """Of each frame its parent, and where it was when; at the time 0 where it never moves."""
     first_ns: int = BEGIN_NS
     last_ns: int = BEGIN_NS + SECOND_NS
@@ -124,7 +130,7 @@ class RandomTree:
     def _stand(self, frame: str, parent: str) -> None:
         motion = any_motion(self.chance)
         self.said[frame] = parent, {0: motion}
-        self.tree.set_static(frame, Step(parent, motion))
+        self.tree.set_static(frame, ParentTransform(parent, motion))
 
     def _move(self, frame: str, parent: str) -> None:
         middle = self.chance.sample(
@@ -135,7 +141,7 @@ class RandomTree:
         motions = {time_ns: any_motion(self.chance) for time_ns in times_ns}
         self.said[frame] = parent, motions
         for time_ns, motion in motions.items():
-            assert self.tree.set_moving(frame, time_ns, Step(parent, motion))
+            assert self.tree.set_moving(frame, time_ns, ParentTransform(parent, motion))
 
     def in_root(self, frame: str, time_ns: int) -> Array:
         """Where the frame lies in the root, by transforms3d."""
@@ -144,7 +150,7 @@ class RandomTree:
         parent, motions = self.said[frame]
         return self.in_root(parent, time_ns) @ self._in_parent(motions, time_ns)
 
-    def _in_parent(self, motions: dict[int, Motion], time_ns: int) -> Array:
+    def _in_parent(self, motions: dict[int, RigidTransform], time_ns: int) -> Array:
         if known := motions.get(time_ns) or motions.get(0):
             return by_transforms3d(known)
         before = max(each for each in motions if each < time_ns)

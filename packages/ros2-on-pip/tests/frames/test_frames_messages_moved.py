@@ -25,8 +25,8 @@ from transforms3d import euler as reference_euler
 from transforms3d import quaternions as reference
 
 from ros2_on_pip.stand_ins._frames.buffer_core import stamped
-from ros2_on_pip.stand_ins._frames.motion import Motion
 from ros2_on_pip.stand_ins._frames.motion import Quaternion as Turn
+from ros2_on_pip.stand_ins._frames.motion import RigidTransform
 
 CLOSE = 1e-12
 ANGLES = st.floats(-3.0, 3.0)
@@ -93,21 +93,21 @@ def test_what_is_known_of_a_pose_turns_too() -> None:
 
 
 @holds_for(MOTIONS, MOTIONS)
-def test_poses_as_transforms3d(frame: Motion, lies: Motion) -> None:
+def test_poses_as_transforms3d(frame: RigidTransform, lies: RigidTransform) -> None:
     """The product of both matrices."""
     made = stamped(lies, "laser", "it", 0).transform
     pose = Pose(orientation=made.rotation)
     pose.position.x, pose.position.y, pose.position.z = lies.shift
     moved = tf2_geometry_msgs.do_transform_pose(pose, stamped(frame, "odom", "laser", 0))
     turn, place = moved.orientation, moved.position
-    ours = Motion((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+    ours = RigidTransform((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
     wanted = by_transforms3d(frame) @ by_transforms3d(lies)
     assert numpy.abs(by_transforms3d(ours) - wanted).max() < CLOSE
     assert turn.w >= 0.0
 
 
 @holds_for(MOTIONS, st.lists(st.floats(-1, 1), min_size=36, max_size=36))
-def test_covariances_as_numpy(frame: Motion, numbers: list[float]) -> None:
+def test_covariances_as_numpy(frame: RigidTransform, numbers: list[float]) -> None:
     """R C Rt, with R twice on the diagonal."""
     turn = by_transforms3d(frame)[:3, :3]
     both = numpy.kron(numpy.identity(2), turn)

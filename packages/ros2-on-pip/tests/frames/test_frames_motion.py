@@ -21,8 +21,8 @@ from transforms3d import euler as reference_euler
 from ros2_on_pip.stand_ins._frames import euler
 from ros2_on_pip.stand_ins._frames.motion import (
     NO_ROTATION,
-    Motion,
     Quaternion,
+    RigidTransform,
     Vector,
     apply,
     between,
@@ -48,21 +48,23 @@ def same_rotation(a: Quaternion, b: Quaternion) -> bool:
 
 
 @holds_for(MOTIONS, MOTIONS)
-def test_composing_is_the_product_of_matrices(a: Motion, b: Motion) -> None:
+def test_composing_is_the_product_of_matrices(a: RigidTransform, b: RigidTransform) -> None:
     """As transforms3d's."""
     product_of_both = by_transforms3d(a) @ by_transforms3d(b)
     assert numpy.abs(as_matrix(compose(a, b)) - product_of_both).max() < CLOSE
 
 
 @holds_for(MOTIONS, SHIFTS)
-def test_there_and_back(motion: Motion, point: Vector) -> None:
+def test_there_and_back(motion: RigidTransform, point: Vector) -> None:
     """The inverse undoes it, from both sides."""
     assert apply(inverse(motion), apply(motion, point)) == pytest.approx(point, abs=CLOSE)
     assert apply(motion, apply(inverse(motion), point)) == pytest.approx(point, abs=CLOSE)
 
 
 @holds_for(MOTIONS, MOTIONS, MOTIONS)
-def test_the_order_of_composing_does_not_matter(a: Motion, b: Motion, c: Motion) -> None:
+def test_the_order_of_composing_does_not_matter(
+    a: RigidTransform, b: RigidTransform, c: RigidTransform
+) -> None:
     """(a b) c is a (b c): a tree may be climbed from any side."""
     left, right = compose(compose(a, b), c), compose(a, compose(b, c))
     assert left.shift == pytest.approx(right.shift, abs=CLOSE)
@@ -92,7 +94,9 @@ def test_a_matrix_has_the_rotation_in_it(q: Quaternion) -> None:
 
 
 @holds_for(MOTIONS, MOTIONS, PARTS)
-def test_between_two_is_the_shorter_arc_at_equal_speed(a: Motion, b: Motion, part: float) -> None:
+def test_between_two_is_the_shorter_arc_at_equal_speed(
+    a: RigidTransform, b: RigidTransform, part: float
+) -> None:
     """As transforms3d's by axis and angle; near half a turn both arcs are as long."""
     half = abs(sum(x * y for x, y in zip(a.rotation, b.rotation, strict=True)))
     if half > 1e-3:
@@ -101,7 +105,7 @@ def test_between_two_is_the_shorter_arc_at_equal_speed(a: Motion, b: Motion, par
 
 
 @holds_for(MOTIONS, MOTIONS)
-def test_the_ends_of_the_way(a: Motion, b: Motion) -> None:
+def test_the_ends_of_the_way(a: RigidTransform, b: RigidTransform) -> None:
     """Part 0 is the first, part 1 the second."""
     for part, end in ((0.0, a), (1.0, b)):
         found = between(a, b, part)

@@ -14,8 +14,8 @@ from ros2_on_pip.stand_ins._frames.errors import (
     LookupException,
     TransformException,
 )
-from ros2_on_pip.stand_ins._frames.history import Moving, NotKnown, Step
-from ros2_on_pip.stand_ins._frames.motion import Motion
+from ros2_on_pip.stand_ins._frames.history import Moving, NotKnown, ParentTransform
+from ros2_on_pip.stand_ins._frames.motion import RigidTransform
 from ros2_on_pip.stand_ins._frames.tree import FrameTree
 from sources import code_of
 
@@ -23,23 +23,23 @@ GOAL = 1e-9
 NEWEST = 0
 
 
-def ahead(x_m: float) -> Motion:
+def ahead(x_m: float) -> RigidTransform:
     """So far along x."""
-    return Motion((x_m, 0.0, 0.0))
+    return RigidTransform((x_m, 0.0, 0.0))
 
 
 def tree(**parents: str) -> FrameTree:
     """Each frame one metre ahead of its parent, and it never moves."""
     made = FrameTree(KEPT_NS)
     for child, parent in parents.items():
-        made.set_static(child, Step(parent, ahead(1.0)))
+        made.set_static(child, ParentTransform(parent, ahead(1.0)))
     return made
 
 
 def moving(made: FrameTree, child: str, parent: str, *times_s: float) -> FrameTree:
     """One that is at x = t at the time t."""
     for time_s in times_s:
-        made.set_moving(child, round(time_s * SECOND_NS), Step(parent, ahead(time_s)))
+        made.set_moving(child, round(time_s * SECOND_NS), ParentTransform(parent, ahead(time_s)))
     return made
 
 
@@ -60,8 +60,8 @@ def test_up_down_and_across() -> None:
     assert made.look_up("odom", "laser", NEWEST)[0].shift == (2.0, 0.0, 0.0)
     assert made.look_up("laser", "odom", NEWEST)[0].shift == (-2.0, 0.0, 0.0)
     assert made.look_up("laser", "camera", NEWEST)[0].shift == (0.0, 0.0, 0.0)
-    assert made.look_up("base", "base", NEWEST) == (Motion(), 0)
-    assert made.look_up("nobody", "nobody", 7) == (Motion(), 7)
+    assert made.look_up("base", "base", NEWEST) == (RigidTransform(), 0)
+    assert made.look_up("nobody", "nobody", 7) == (RigidTransform(), 7)
 
 
 def test_the_newest_is_what_all_steps_have() -> None:
@@ -101,7 +101,7 @@ def test_from_static_to_moving_and_back() -> None:
     made = moving(tree(base="odom"), "base", "odom", 5.0)
     with pytest.raises(ExtrapolationException):
         made.look_up("odom", "base", SECOND_NS)
-    made.set_static("base", Step("odom", ahead(9.0)))
+    made.set_static("base", ParentTransform("odom", ahead(9.0)))
     assert made.look_up("odom", "base", SECOND_NS)[0].shift == (9.0, 0.0, 0.0)
 
 
@@ -109,17 +109,17 @@ def test_what_is_older_than_is_kept() -> None:
     """It goes when a newer one comes, and does not come back."""
     kept = Moving(keep_ns=10 * SECOND_NS)
     for time_s in (1, 5, 12):
-        assert kept.insert(time_s * SECOND_NS, Step("odom", ahead(time_s)))
+        assert kept.insert(time_s * SECOND_NS, ParentTransform("odom", ahead(time_s)))
     assert (kept.length, kept.oldest_ns) == (2, 5 * SECOND_NS)
-    assert not kept.insert(SECOND_NS, Step("odom", ahead(1.0)))
-    assert kept.insert(2 * SECOND_NS, Step("odom", ahead(2.0))), "as old as is allowed"
+    assert not kept.insert(SECOND_NS, ParentTransform("odom", ahead(1.0)))
+    assert kept.insert(2 * SECOND_NS, ParentTransform("odom", ahead(2.0))), "as old as is allowed"
 
 
 def test_two_for_one_moment() -> None:
     """The later counts, and it is one moment still."""
     kept = Moving(keep_ns=10 * SECOND_NS)
     for x_m in (1.0, 2.0):
-        kept.insert(SECOND_NS, Step("odom", ahead(x_m)))
+        kept.insert(SECOND_NS, ParentTransform("odom", ahead(x_m)))
     assert kept.length == 1
     assert kept.at(SECOND_NS).motion == ahead(2.0)
 

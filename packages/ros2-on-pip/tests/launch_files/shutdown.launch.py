@@ -14,6 +14,6 @@ def generate_launch_description() -> LaunchDescription:
     return LaunchDescription(
         [
             stays,
-            RegisterEventHandler(OnProcessIO(target_action=stays, on_stderr=[needed])),
+            RegisterEventHandler(OnProcessIO(target_action=stays, on_stderr=lambda event: needed)),
         ]
     )

@@ -41,15 +41,15 @@ def pair(words: list[str]) -> None:
 
 def ttl(words: list[str]) -> None:
     """How many networks a datagram of `ros2 WORD...` may reach, as its receiver sees it."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as ear:
-        ear.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        ear.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
-        ear.bind((GROUP, PORT))
-        ear.setsockopt(socket.IPPROTO_IP, IP_RECVTTL, 1)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
+        receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        receiver.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+        receiver.bind((GROUP, PORT))
+        receiver.setsockopt(socket.IPPROTO_IP, IP_RECVTTL, 1)
         membership = struct.pack("4sl", socket.inet_aton(GROUP), socket.INADDR_ANY)
-        ear.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
+        receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, membership)
         subprocess.run(ours(*words), stdout=subprocess.DEVNULL, check=True)
-        _, about, _, _ = ear.recvmsg(100, 100)
+        _, about, _, _ = receiver.recvmsg(100, 100)
         print("ttl", next(data[0] for _, kind, data in about if kind == socket.IP_TTL))
 
 

@@ -15,10 +15,10 @@ from launch_shop import package
 from terminal import Shell
 
 from ros2_on_pip.launching import provided
-from ros2_on_pip.launching.context import LaunchContext
+from ros2_on_pip.launching.context import Around, LaunchContext
 from ros2_on_pip.launching.planned import Planned
 from ros2_on_pip.launching.reading import description_in
-from ros2_on_pip.launching.screen import Screen
+from ros2_on_pip.launching.screen import LaunchOutput
 from ros2_on_pip.launching.service import LaunchService
 
 
@@ -45,12 +45,18 @@ class Launch:
     """One launch, and the folder in which its package `mine` has the executable `teller`."""
 
     context: LaunchContext
-    screen: Screen
+    screen: LaunchOutput
     folder: Path
+
+    def again(self) -> Launch:
+        """A second one, in which nothing has happened either."""
+        around = Around(self.screen, self.folder, description_in)
+        return Launch(LaunchContext(around=around), self.screen, self.folder)
 
     def filled(self, substitution: Any) -> str:
         """The text of a substitution. Raises SubstitutionFailure."""
-        return self.context.perform_substitution(substitution)
+        text: str = self.context.perform_substitution(substitution)
+        return text
 
     def visit(self, *entities: Any) -> None:
         """Carry them out; a process is planned, and does not start. Raises BadLaunchFile."""
@@ -77,8 +83,10 @@ def launch(tmp_path: Path) -> Iterator[Launch]:
     """One in which nothing has happened yet; its environment ends with it."""
     own = {"ROS_LOG_DIR": str(tmp_path / "log")}
     shell = package(Shell({**os.environ, **own}, tmp_path), tmp_path)
-    with surroundings_of(shell), Screen() as screen:
-        yield Launch(LaunchContext(screen, tmp_path, description_in), screen, tmp_path)
+    with surroundings_of(shell), LaunchOutput() as screen:
+        yield Launch(
+            LaunchContext(around=Around(screen, tmp_path, description_in)), screen, tmp_path
+        )
 
 
 def logged(out: pytest.CaptureFixture[str]) -> list[str]:

@@ -50,6 +50,16 @@ def test_a_description_is_carried_out_in_order(launch: Launch, capsys: Out) -> N
     assert len(description.entities) == 3
 
 
+def test_a_deprecated_description_says_so(launch: Launch, capsys: Out) -> None:
+    """When it is carried out; everything in it is done all the same."""
+    old = base.LaunchDescription([actions.LogInfo(msg="done")], deprecated_reason="use new")
+    assert old.deprecated and not base.LaunchDescription().deprecated
+    launch.visit(old)
+    told = capsys.readouterr().out
+    assert told.startswith("[WARNING] [root]: deprecated launch description: use new\n")
+    assert told.endswith("done\n")
+
+
 def test_a_line_of_the_launch_file_has_its_level_and_its_name(launch: Launch, capsys: Out) -> None:
     """As Jazzy prints it."""
     launch.visit(actions.LogInfo(msg=["side: ", Given("side", default="left")]))
@@ -161,6 +171,14 @@ def test_a_node_with_a_wrong_name_ends_the_launch(launch: Launch, wrong: dict[st
         launch.visit(ros.Node(**{"package": "mine", "executable": "teller", **wrong}))
 
 
+@pytest.mark.parametrize("wrong", ["2nd", "a b", "a//b", "a-b"])
+def test_a_wrong_namespace_is_refused_when_it_is_pushed(launch: Launch, wrong: str) -> None:
+    """Also where no node follows."""
+    with pytest.raises(BadLaunchFile, match="is no namespace"):
+        launch.visit(ros.PushRosNamespace(wrong))
+    launch.visit(ros.PushRosNamespace("a_b2/c"))
+
+
 def test_what_is_set_for_all_nodes_counts_for_those_that_follow(launch: Launch) -> None:
     """Parameters, files of them and other names; a group ends it, a node's own come later."""
     file = launch.folder / "a.yaml"
@@ -187,6 +205,20 @@ def test_what_is_set_for_all_nodes_counts_for_those_that_follow(launch: Launch) 
     ]
 
 
+def test_a_parameter_for_all_is_written_without_quotes(launch: Launch) -> None:
+    """So a text of digits is a number for the node, and a dictionary is several names."""
+    launch.visit(ros.SetParameter("a", "7"), ros.SetParameter("b", {"c": True, "d": "e"}), teller())
+    assert told(launch.context.planned[-1].command) == ["a:=7", "b.c:=True", "b.d:=e"]
+
+
+def test_sim_time_of_the_launch_reaches_no_node(launch: Launch, capsys: Out) -> None:
+    """It is said where the nodes get it; False ends the launch."""
+    assert told(launch.plan(ros.SetUseSimTime(True), teller()).command) == []
+    assert "SetParameter('use_sim_time', True)" in capsys.readouterr().out
+    with pytest.raises(BadLaunchFile, match="takes True alone"):
+        launch.visit(ros.SetUseSimTime(False))
+
+
 def test_the_environment_of_a_process(launch: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
     """That of the launch, and more; or one that is given, and more."""
     monkeypatch.setenv("MOOD", "calm")
@@ -211,6 +243,32 @@ def test_variables_are_set_grown_and_taken_away(launch: Launch) -> None:
     ):
         launch.visit(action)
     assert (os.environ["A"], os.environ["B"], "C" in os.environ) == ("w x:y", "z", False)
+
+
+def test_what_is_empty_is_grown_too(launch: Launch) -> None:
+    """The separator stands behind nothing then."""
+    for word, first in (("A", False), ("B", True)):
+        launch.visit(
+            actions.SetEnvironmentVariable(word, ""),
+            actions.AppendEnvironmentVariable(word, "x", prepend=first),
+        )
+    assert (os.environ["A"], os.environ["B"]) == (":x", "x:")
+
+
+def test_a_process_with_a_prefix_is_called_as_the_prefix_is(launch: Launch) -> None:
+    """Unless it has a name; a prefix of the command line is for the programs that it fits."""
+    launch.visit(
+        teller(prefix="nice -n 5"),
+        teller(prefix="/usr/bin/nice", exec_name="mine"),
+        actions.SetLaunchConfiguration("launch-prefix", "nice"),
+        actions.SetLaunchConfiguration("launch-prefix-filter", "tell"),
+        teller(exec_name="other"),
+        actions.ExecuteProcess(cmd=["echo"], name="teller"),
+    )
+    names = [one.name for one in launch.context.planned]
+    assert names == ["nice-1", "mine-2", "other-3", "teller-4"]
+    prefixed = [one.command[0].endswith("nice") for one in launch.context.planned]
+    assert prefixed == [True, True, True, False]
 
 
 def test_what_a_process_is_started_with(launch: Launch) -> None:
@@ -250,8 +308,9 @@ def test_where_the_output_of_a_process_goes(launch: Launch, output: str) -> None
     apart = launch.plan(teller(output={"stdout": "screen", "stderr": ["log"]})).output
     assert apart == {"stdout": {"screen"}, "stderr": {"log"}}
     assert launch.plan(teller()).output == {"stdout": {"log"}, "stderr": {"log", "screen"}}
-    with pytest.raises(BadLaunchFile):
-        launch.visit(teller(output="scren"))
+    for wrong in ("scren", {"stdout": "scren"}, {"stdin": "screen"}, {"both": ["log", "full"]}):
+        with pytest.raises(BadLaunchFile):
+            launch.visit(teller(output=wrong))
 
 
 def test_whether_a_process_comes_back(launch: Launch) -> None:
@@ -349,6 +408,35 @@ def test_an_included_file_without_its_argument_ends_the_launch(launch: Launch) -
     assert launch.context.launch_configurations == {}
 
 
+def test_the_surroundings_give_an_included_file_no_argument(launch: Launch, capsys: Out) -> None:
+    """What has no default must be handed on; what has one sees the surroundings."""
+    (launch.folder / "inner.launch.xml").write_text(f"{INNER}</launch>")
+    file = str(launch.folder / "inner.launch.xml")
+    around = [
+        actions.SetLaunchConfiguration("who", "me"),
+        actions.SetLaunchConfiguration("end", "?"),
+    ]
+    with pytest.raises(BadLaunchFile, match=r"'who' .* must be handed on there: launch_arguments"):
+        launch.visit(*around, actions.IncludeLaunchDescription(file))
+    handed = {"who": Given("who")}.items()
+    launch.visit(*around, actions.IncludeLaunchDescription(file, launch_arguments=handed))
+    assert logged(capsys) == ["me?"]
+
+
+@pytest.mark.parametrize(
+    "inner",
+    [
+        '<group if="false"><arg name="who"/></group>',
+        '<arg name="who" if="false"/>',
+        '<timer period="0"><arg name="who"/></timer>',
+        '<arg name="who" default="a"/><arg name="who"/>',
+    ],
+)
+def test_what_may_never_be_asked_for_is_not_required(launch: Launch, inner: str) -> None:
+    """An argument behind a condition, one of later, and one that has a default before."""
+    launch.visit(launch.included("inner.launch.xml", f"<launch>{inner}</launch>"))
+
+
 LANGUAGES = {
     "a.launch.py": (
         "PythonLaunchDescriptionSource",
@@ -404,6 +492,67 @@ def test_a_shutdown_ends_timers_that_do_not_say_otherwise(launch: Launch, capsys
     assert (code, logged(capsys)) == (0, ["still"])
 
 
+def test_a_timer_keeps_the_configurations_of_its_beginning(launch: Launch, capsys: Out) -> None:
+    """Also of a group that has ended by then; what it sets stays inside."""
+    word = actions.LogInfo(msg=[Given("a", default="-"), Given("b", default="-")])
+    later = [actions.SetLaunchConfiguration("b", "2"), word]
+    launch.run(
+        actions.GroupAction(
+            [
+                actions.SetLaunchConfiguration("a", "1"),
+                actions.TimerAction(period=0.001, actions=later),
+            ]
+        ),
+        actions.SetLaunchConfiguration("a", "3"),
+        actions.TimerAction(period=0.01, actions=[word]),
+    )
+    assert logged(capsys) == ["12", "3-"]
+    assert launch.context.launch_configurations == {"a": "3"}
+
+
+def test_a_cancelled_timer_is_not_waited_for(launch: Launch, capsys: Out) -> None:
+    """Neither one that was cancelled before it began, nor one that another ends."""
+    before = actions.TimerAction(period=600.0, actions=[actions.LogInfo(msg="never")])
+    before.cancel()
+    other = actions.TimerAction(period=600.0, actions=[actions.LogInfo(msg="never")])
+    ends = actions.OpaqueFunction(function=lambda context: other.cancel())
+    launch.run(before, other, actions.TimerAction(period=0.001, actions=[ends]))
+    assert logged(capsys) == []
+
+
+def complete(target: Any, word: str) -> Any:
+    """What says a word when `target` is complete."""
+    line = [actions.LogInfo(msg=word)]
+    handler = handlers.OnExecutionComplete(target_action=target, on_completion=line)
+    return actions.RegisterEventHandler(handler)
+
+
+def test_any_action_is_complete_at_some_time(launch: Launch, capsys: Out) -> None:
+    """A line at once, a timer when it was due, a process when it has ended."""
+    line = actions.LogInfo(msg="line")
+    timer = actions.TimerAction(period=0.001, actions=[actions.LogInfo(msg="due")])
+    process = actions.ExecuteProcess(cmd=["true"])
+    launch.run(
+        complete(line, "line is complete"),
+        complete(timer, "timer is complete"),
+        complete(process, "process is complete"),
+        timer,
+        process,
+        line,
+    )
+    said = logged(capsys)
+    assert said[:2] == ["line", "line is complete"]
+    assert said.index("due") < said.index("timer is complete")
+    assert "process is complete" in said
+
+
+def test_who_comes_late_hears_of_no_completion(launch: Launch, capsys: Out) -> None:
+    """The handler must be there when the action is carried out."""
+    process, line = actions.ExecuteProcess(cmd=["true"]), actions.LogInfo(msg="line")
+    launch.run(process, line, complete(process, "late"), complete(line, "late"))
+    assert logged(capsys) == ["line"]
+
+
 @pytest.mark.parametrize(
     "ends",
     [actions.EmitEvent(event=events.Shutdown(reason="enough")), actions.Shutdown(reason="enough")],
@@ -420,6 +569,15 @@ def test_a_shutdown_has_a_reason(launch: Launch, capsys: Out, ends: Any) -> None
     assert (code, seen, logged(capsys)) == (0, ["enough"], ["enough"])
     assert events.Shutdown().reason == "reason not given"
     assert events.Shutdown().due_to_sigint is False
+
+
+def test_a_reason_is_handed_on_as_it_is(launch: Launch) -> None:
+    """Also a substitution, which nobody fills in."""
+    seen: list[Any] = []
+    handler = handlers.OnShutdown(on_shutdown=lambda event, context: seen.append(event.reason))
+    reason = Given("x")
+    launch.run(actions.RegisterEventHandler(handler), actions.Shutdown(reason=reason))
+    assert seen == [reason]
 
 
 def test_a_launch_with_nothing_left_to_do_is_over(launch: Launch, capsys: Out) -> None:
@@ -474,6 +632,18 @@ def test_a_handler_is_for_a_process(launch: Launch) -> None:
     assert issubclass(process_events.ProcessExited, base.Event)
 
 
+def test_an_empty_list_for_an_action_ends_the_launch(launch: Launch) -> None:
+    """When the event is there; None, and an empty list for a shutdown, are right."""
+    for process, code in (
+        (actions.ExecuteProcess(cmd=["true"], on_exit=[]), 1),
+        (actions.ExecuteProcess(cmd=["true"], on_exit=None), 0),
+    ):
+        fresh = launch.again()
+        assert fresh.run(process) == code
+    shutdown = handlers.OnShutdown(on_shutdown=[])
+    assert launch.run(actions.RegisterEventHandler(shutdown)) == 0
+
+
 def test_what_is_wrong_in_a_handler_ends_the_launch_with_one(launch: Launch) -> None:
     """Exit 1; Jazzy, too, counts an exception in what is done later."""
 
@@ -514,6 +684,11 @@ def test_unknown_words_of_xml_and_yaml_end_the_launch(launch: Launch, name: str)
         {"logg": {"message": "a"}},
         {"log": {"message": "a", "colour": "red"}},
         {"log": {"message": "a", "if": "true", "unless": "true"}},
+        {"log": {"message": "a", "level": "INFO"}},
+        {"arg": {"name": "a", "value": "b"}},
+        {"set_parameter": {"name": "a", "value": "b", "type": "str"}},
+        {"executable": {"cmd": "true", "launch_prefix": "env"}},
+        {"set-env": {"name": "a", "value": "b"}},
     ):
         ((tag, attributes),) = line.items()
         words = " ".join(f'{key}="{value}"' for key, value in attributes.items())
@@ -545,9 +720,67 @@ def test_arguments_are_typed_as_name_and_value(launch: Launch) -> None:
         assert (ran.code, ran.lines[-1]) == (0, f"[INFO] [launch.user]: {said}")
 
 
-@pytest.mark.parametrize("word", ["who=me", "who", ":=me"])
+@pytest.mark.parametrize("word", ["who=me", "who", ":=me", "who:="])
 def test_what_is_typed_otherwise_is_refused(launch: Launch, word: str) -> None:
     """With the words of Jazzy, and exit 1."""
     ran = typed(launch, word)
     assert ran.code == 1
     assert f"malformed launch argument '{word}', expected format '<name>:=<value>'" in ran.err
+
+
+def test_a_file_is_printed_or_its_arguments_are_shown(launch: Launch) -> None:
+    """Not both."""
+    ran = typed(launch, "--print", "--show-args")
+    assert (ran.code, "not allowed with argument" in ran.err) == (2, True)
+    assert typed(launch, "--print").code == typed(launch, "--show-args").code == 0
+
+
+def test_two_launch_files_of_one_name_are_refused(launch: Launch) -> None:
+    """By the package; the path of one is taken."""
+    share = launch.folder / "share" / "mine"
+    for folder in ("launch", "more"):
+        (share / folder).mkdir(parents=True)
+        (share / folder / "a.launch.xml").write_text(f'<launch><log message="{folder}"/></launch>')
+    shell = Shell(dict(os.environ), launch.folder)
+    ran = run(shell, "launch", "mine", "a.launch.xml")
+    assert (ran.code, "was found more than once" in ran.err) == (1, True)
+    ran = run(shell, "launch", str(share / "more" / "a.launch.xml"))
+    assert (ran.code, ran.lines[-1]) == (0, "[INFO] [launch.user]: more")
+
+
+OF_YAML = {
+    "arg: {name: a, default: 5}": "'default' of 'arg' must be a text",
+    "let: {name: a, value: true}": "'value' of 'let' must be a text",
+    "log: {message: hi, if: true}": "'if' of 'log' must be a text",
+    "timer: {period: 5, children: []}": "Write it with a point: 5.0",
+    "node: {exec: a, respawn: true}": "'respawn' of 'node' must be a text",
+    "node: {exec: a, respawn_delay: 2}": "Write it with a point: 2.0",
+    "node: {exec: a, args: 5}": "'args' of 'node' must be a text",
+    "set_parameter: {name: a, value: 2.5}": "'value' of 'set_parameter' must be a text",
+}
+
+
+@pytest.mark.parametrize("line", OF_YAML)
+def test_yaml_makes_no_text_of_a_number(launch: Launch, line: str) -> None:
+    """Between quotes it is one."""
+    with pytest.raises(BadLaunchFile, match=OF_YAML[line]):
+        launch.visit(launch.included("a.launch.yaml", f"launch:\n- {line}\n"))
+
+
+@pytest.mark.parametrize("name", ["a.launch.xml", "a.launch.yaml"])
+def test_a_file_may_be_deprecated(launch: Launch, capsys: Out, name: str) -> None:
+    """It says so with its path, and is carried out."""
+    xml = '<launch deprecated="use b"><push-ros-namespace namespace="c"/></launch>'
+    yaml = "launch: {deprecated: use b, children: [{push-ros-namespace: {namespace: c}}]}"
+    launch.visit(launch.included(name, xml if name.endswith("xml") else yaml))
+    said = f"[WARNING] [root]: launch file [{launch.folder / name}] is deprecated: use b"
+    assert said in capsys.readouterr().out
+    assert launch.context.launch_configurations == {"ros_namespace": "/c"}
+
+
+def test_yaml_takes_numbers_and_texts_where_they_belong(launch: Launch, capsys: Out) -> None:
+    """A number with a point for a time, and a text for anything."""
+    text = "launch:\n- timer: {period: 0.001, children: [{log: {message: late}}]}\n"
+    text += '- arg: {name: a, default: "5"}\n- log: {message: $(var a), if: "true"}\n'
+    launch.run(launch.included("a.launch.yaml", text))
+    assert logged(capsys) == ["5", "late"]

@@ -97,6 +97,22 @@ def test_parts_of_a_path_are_joined(launch: Launch) -> None:
     assert launch.filled(subs.PathJoinSubstitution(["/x", "/y", Given("file")])) == "/y/a.yaml"
 
 
+def test_an_empty_part_leaves_a_slash_at_the_end(launch: Launch) -> None:
+    """As in os.path.join; a slash that was there stays."""
+    assert launch.filled(subs.PathJoinSubstitution(["/x", ""])) == "/x/"
+    assert launch.filled(subs.PathJoinSubstitution(["/x", "y/"])) == "/x/y/"
+
+
+def test_a_slash_joins_paths(launch: Launch) -> None:
+    """Behind either substitution of a path; one part may be made of several texts."""
+    launch.context.launch_configurations["file"] = "a"
+    config = subs.PathSubstitution("/x") / "config"
+    assert launch.filled(config / [Given("file"), ".yaml"]) == "/x/config/a.yaml"
+    assert launch.filled(subs.PathJoinSubstitution(["/x"]) / config) == "/x/config"
+    share = ros_subs.FindPackageShare("mine") / "config" / "a.yaml"
+    assert launch.filled(share) == f"{launch.folder}/share/mine/config/a.yaml"
+
+
 def test_packages_are_found(launch: Launch) -> None:
     """Their prefix, their share folder, their executables; none of a package that is not there."""
     prefix = str(launch.folder)
@@ -125,6 +141,13 @@ def test_a_variable_of_the_environment_is_read(launch: Launch) -> None:
         launch.filled(subs.EnvironmentVariable("NO_MOOD"))
 
 
+def test_a_default_is_filled_in_also_where_it_is_not_needed(launch: Launch) -> None:
+    """So what it is made of must be there."""
+    launch.visit(actions.SetEnvironmentVariable("MOOD", "calm"))
+    with pytest.raises(subs.SubstitutionFailure, match="'gone' does not exist"):
+        launch.filled(subs.EnvironmentVariable("MOOD", default_value=Given("gone")))
+
+
 EXPRESSIONS = {
     ("1 + 1",): "2",
     ("'", Given("side"), "' == 'left'"): "True",
@@ -149,6 +172,16 @@ def test_an_expression_sees_the_modules_that_are_named(launch: Launch) -> None:
         launch.filled(subs.PythonExpression("sqrt(16)", python_modules=["os"]))
 
 
+def test_one_module_may_be_a_text(launch: Launch) -> None:
+    """Or a substitution; one that is not there is a failure."""
+    launch.context.launch_configurations["module"] = "os"
+    for modules in ("os", Given("module"), [Given("module")]):
+        of_os = subs.PythonExpression("os.path.basename('/a/b')", python_modules=modules)
+        assert launch.filled(of_os) == "b"
+    with pytest.raises(subs.SubstitutionFailure, match="no_such_module"):
+        launch.filled(subs.PythonExpression("1", python_modules="no_such_module"))
+
+
 def test_a_command_gives_what_it_prints(launch: Launch) -> None:
     """All of it, with the end of the line."""
     launch.context.launch_configurations["word"] = "two words"
@@ -166,6 +199,18 @@ def test_a_command_that_fails_is_a_failure(launch: Launch) -> None:
     assert launch.filled(subs.Command(warns, on_stderr="ignore")) == "1\n"
     assert launch.filled(subs.Command(warns, on_stderr="warn")) == "1\n"
     assert "oh" in launch.filled(subs.Command(warns, on_stderr="capture"))
+
+
+def test_what_is_captured_comes_in_the_order_in_which_it_was_written(launch: Launch) -> None:
+    """Both streams are one."""
+    words = "sh -c 'echo one; echo two >&2; echo three'"
+    assert launch.filled(subs.Command(words, on_stderr="capture")) == "one\ntwo\nthree\n"
+
+
+def test_on_stderr_is_one_of_four_words(launch: Launch) -> None:
+    """Any other is a failure, also where nothing is written there."""
+    with pytest.raises(subs.SubstitutionFailure, match="on_stderr is one of fail"):
+        launch.filled(subs.Command("true", on_stderr="ignored"))
 
 
 def test_an_executable_is_found_on_the_path(launch: Launch) -> None:
@@ -230,6 +275,64 @@ TRUTHS = {
 def test_what_is_equal_and_what_is_true(launch: Launch, case: str) -> None:
     """Truths and numbers are compared by what they mean; the answer is `true` or `false`."""
     assert launch.filled(TRUTHS[case]) == ("false" if case == "false" else "true")
+
+
+VALUES_COMPARED: dict[str, tuple[Any, Any, str]] = {
+    "truth and text": (True, "TRUE", "true"),
+    "truth and number": (False, 0, "true"),
+    "numbers": (5, 5.0, "true"),
+    "number and text": (2.5, "2.50", "true"),
+    "nothing and empty": (None, "", "true"),
+    "nothing and its name": (None, "None", "false"),
+    "no number is itself": ("nan", "nan", "false"),
+    "truth with blanks": (" true ", "1", "false"),
+    "a list of texts is no text": (["a", "b"], "ab", "false"),
+    "a list with a substitution is": (["a", Given("x")], "ab", "true"),
+}
+
+
+@pytest.mark.parametrize("case", VALUES_COMPARED)
+def test_any_values_are_compared(launch: Launch, case: str) -> None:
+    """By what they are as texts."""
+    launch.context.launch_configurations["x"] = "b"
+    left, right, wanted = VALUES_COMPARED[case]
+    assert launch.filled(subs.EqualsSubstitution(left, right)) == wanted
+    other = "false" if wanted == "true" else "true"
+    assert launch.filled(subs.NotEqualsSubstitution(left, right)) == other
+
+
+@pytest.mark.parametrize(
+    ("word", "is_true"),
+    [("on", True), ("yes", True), ("True", True), ("1", True), ("off", False), ("No", False)],
+)
+def test_outside_of_conditions_yaml_says_what_is_true(
+    launch: Launch, word: str, is_true: bool
+) -> None:
+    """In and, or, not and if, and where a process shall come back."""
+    truth = str(is_true).lower()
+    assert launch.filled(subs.AndSubstitution(word, "on")) == truth
+    assert launch.filled(subs.OrSubstitution("off", word)) == truth
+    assert launch.filled(subs.NotSubstitution(word)) == str(not is_true).lower()
+    assert launch.filled(subs.IfElseSubstitution(word, "true", "false")) == truth
+    process = actions.ExecuteProcess(cmd=["true"], respawn=subs.TextSubstitution(text=word))
+    assert launch.plan(process).respawn.wanted is is_true
+
+
+@pytest.mark.parametrize("word", ["", " 1 ", "tRue", "2", "y", "[true]"])
+def test_what_yaml_takes_for_no_truth_is_none(launch: Launch, word: str) -> None:
+    """It is a SubstitutionFailure."""
+    with pytest.raises(subs.SubstitutionFailure, match="true or false"):
+        launch.filled(subs.NotSubstitution(word))
+
+
+def test_a_context_is_made_by_hand() -> None:
+    """As a test of a launch file makes it: empty, and ready to fill substitutions in."""
+    context = base.LaunchContext(argv=["a:=b"], noninteractive=True)
+    assert (context.argv, context.noninteractive) == (["a:=b"], True)
+    assert base.LaunchContext().argv == []
+    context.launch_configurations["x"] = "1"
+    assert Given("x").perform(context) == "1"
+    assert base.LaunchContext().launch_configurations == {}
 
 
 def test_and_or_not_take_no_other_word(launch: Launch) -> None:
@@ -299,6 +402,8 @@ def test_a_condition_compares_a_configuration(launch: Launch) -> None:
 
 
 VALUES: dict[str, tuple[Any, Any]] = {
+    "a list in a list is one text": ([[Given("side"), "_wheel"], ["b"]], ["left_wheel", "b"]),
+    "a substitution beside numbers": ([Given("rate"), 5], [4, 5]),
     "text stays text": ("7", "7"),
     "number": (2.5, 2.5),
     "truth": (True, True),
@@ -335,6 +440,29 @@ def test_what_is_no_value_of_a_parameter(launch: Launch, value: Any) -> None:
     node = ros.Node(package="mine", executable="teller", parameters=[{"p": value}])
     with pytest.raises(BadLaunchFile, match="parameter 'p"):
         launch.visit(node)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"), [("4.5", int), ("four", float), ("maybe", bool), ("[1]", int)]
+)
+def test_a_substitution_must_be_of_the_type_that_is_said(
+    launch: Launch, text: str, kind: type[Any]
+) -> None:
+    """A number with a point is no whole number."""
+    given = described.ParameterValue(Given("x"), value_type=kind)
+    launch.context.launch_configurations["x"] = text
+    with pytest.raises(BadLaunchFile, match="parameter 'p"):
+        launch.visit(ros.Node(package="mine", executable="teller", parameters=[{"p": given}]))
+
+
+@pytest.mark.parametrize(
+    ("value", "kind"), [(5, str), (5, float), ("5", int), ("true", bool), (5, dict)]
+)
+def test_a_value_that_is_known_is_not_made_another(value: Any, kind: type[Any]) -> None:
+    """Only what a substitution gives is read as a type."""
+    described.ParameterValue(Given("x"), value_type=str)
+    with pytest.raises((TypeError, ValueError)):
+        described.ParameterValue(value, value_type=kind)
 
 
 def test_names_inside_names_are_joined_by_dots(launch: Launch) -> None:

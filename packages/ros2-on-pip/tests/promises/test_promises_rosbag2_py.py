@@ -194,6 +194,60 @@ def test_a_bag_is_split_by_time_and_read_as_one(tmp_path: Path) -> None:
     assert [time_ns // 10**9 for _, time_ns in read(reader(tmp_path / "b"))] == [0, 1, 2, 3]
 
 
+def test_a_file_holds_the_whole_of_its_duration(tmp_path: Path) -> None:
+    """A message exactly so late still belongs to it."""
+    of = writer(tmp_path / "b", max_bagfile_duration=1)
+    for time_ns in (1, 10**9 + 1, 10**9 + 2):
+        of.write("/a", TALK, time_ns)
+    of.close()
+    files = reader(tmp_path / "b").get_metadata().files
+    assert [file.message_count for file in files] == [2, 1]
+
+
+@pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
+def test_a_topic_that_is_removed_takes_its_messages_along(tmp_path: Path, storage: str) -> None:
+    """Out of the metadata; one that is not there cannot be removed."""
+    of = writer(tmp_path / "b", storage)
+    for name in ("/a", "/b"):
+        of.write(name, TALK, 1)
+    of.remove_topic(topic("/a"))
+    with pytest.raises(RuntimeError, match="Call create_topic"):
+        of.write("/a", TALK, 2)
+    for unknown in ("/a", "/never"):
+        with pytest.raises(RuntimeError, match=f'non-existing topic "{unknown}"'):
+            of.remove_topic(topic(unknown))
+    of.close()
+    found = reader(tmp_path / "b").get_metadata()
+    assert found.message_count == 1
+    names = [one.topic_metadata.name for one in found.topics_with_message_count]
+    assert names == ["/b"]
+
+
+def test_a_filters_expression_matches_a_whole_name(tmp_path: Path) -> None:
+    """As does the one that leaves topics out."""
+    of = writer(tmp_path / "b")
+    for name in ("/a", "/b"):
+        of.write(name, TALK, 1)
+    of.close()
+    for words, left in (
+        ({"regex": "/a"}, ["/a"]),
+        ({"regex": "a"}, []),
+        ({"regex": ".*a|/b"}, ["/a", "/b"]),
+        ({"regex_to_exclude": "a"}, ["/a", "/b"]),
+        ({"regex_to_exclude": "/a"}, ["/b"]),
+    ):
+        found = reader(tmp_path / "b")
+        found.set_filter(rosbag2_py.StorageFilter(**words))
+        assert [name for name, _ in read(found)] == left
+
+
+@pytest.mark.parametrize("options", [(), (None,), ("zstd",)])
+def test_a_compressing_writer_needs_its_options(options: tuple[Any, ...]) -> None:
+    """Anything else is a TypeError."""
+    with pytest.raises(TypeError):
+        rosbag2_py.SequentialCompressionWriter(*options)
+
+
 def test_a_snapshot_is_refused_where_none_was_asked_for(tmp_path: Path) -> None:
     """take_snapshot() of a plain recording is False."""
     assert writer(tmp_path / "b").take_snapshot() is False

@@ -13,7 +13,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from ros2_on_pip.rosbag2.metadata import Topic
 from ros2_on_pip.rosbag2.packing import ENDING, unpack_file
-from ros2_on_pip.rosbag2.writing import BagWriter, Plan
+from ros2_on_pip.rosbag2.writing import BagWriter, BagWriterOptions
 
 TYPES = get_typestore(Stores.ROS2_JAZZY)
 STRING = "std_msgs/msg/String"
@@ -33,9 +33,9 @@ def said(texts: Iterable[str], topic: str = "/heard") -> list[Said]:
     return [(topic, BEGIN_NS + n * STEP_NS, text) for n, text in enumerate(texts)]
 
 
-def write(folder: Path, messages: Iterable[Said], plan: Plan | None = None) -> Path:
+def write(folder: Path, messages: Iterable[Said], plan: BagWriterOptions | None = None) -> Path:
     """A bag of ours with these messages."""
-    writer = BagWriter(folder, plan or Plan())
+    writer = BagWriter(folder, plan or BagWriterOptions())
     for topic in TOPICS:
         writer.add_topic(topic)
     for topic_name, time_ns, text in messages:

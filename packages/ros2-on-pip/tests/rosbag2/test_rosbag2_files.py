@@ -14,12 +14,12 @@ import yaml
 from bags import BEGIN_NS, STEP_NS, TOPICS, TYPES, raw, read_by_mcap, read_by_rosbags, said, write
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
-from ros2_on_pip.rosbag2.choosing import BadExpression, Choice
+from ros2_on_pip.rosbag2.choosing import BadExpression, TopicFilter
 from ros2_on_pip.rosbag2.errors import (
-    BadName,
+    BadBagPath,
+    BagNotWritable,
     BagThere,
-    CannotWrite,
-    Damaged,
+    DamagedBag,
     NoBag,
     NoMetadata,
     TooSmall,
@@ -29,7 +29,7 @@ from ros2_on_pip.rosbag2.metadata import Topic
 from ros2_on_pip.rosbag2.quality import BadOverrides, overrides
 from ros2_on_pip.rosbag2.reading import opened, read_metadata
 from ros2_on_pip.rosbag2.reindexing import reindex
-from ros2_on_pip.rosbag2.writing import BagWriter, Compression, Plan
+from ros2_on_pip.rosbag2.writing import BagWriter, BagWriterOptions, Compression
 
 STORAGES = ("mcap", "sqlite3")
 COMPRESSIONS: tuple[Compression, ...] = ("none", "file", "message")
@@ -43,7 +43,7 @@ def test_others_read_what_was_written(
     tmp_path: Path, storage: str, compression: Compression
 ) -> None:
     """Split by time, in every way of storing: `rosbags` and MCAP's reader find all of it."""
-    plan = Plan(storage, compression, max_duration_s=1.0, custom={"robot": "seven"})
+    plan = BagWriterOptions(storage, compression, max_duration_s=1.0, custom={"robot": "seven"})
     bag = write(tmp_path / "drive", said(TEXTS), plan)
     assert read_by_rosbags(bag) == said(TEXTS)
     if storage == "mcap" and compression != "message":
@@ -51,13 +51,13 @@ def test_others_read_what_was_written(
     with opened(bag) as reader:
         assert [(t, n) for t, n, _ in reader.messages()] == [(t, n) for t, n, _ in said(TEXTS)]
         assert [data for _, _, data in reader.messages()] == [raw(text) for text in TEXTS]
-        assert [file.span.count for file in reader.metadata.files] == [10, 10, 5]
+        assert [file.span.count for file in reader.metadata.files] == [11, 11, 3]
         assert reader.metadata.custom == {"robot": "seven"}
 
 
 def test_the_metadata_are_those_of_jazzy(tmp_path: Path) -> None:
     """The keys and values that rosbag2 writes in version 9."""
-    bag = write(tmp_path / "drive", said(TEXTS), Plan(compression="file"))
+    bag = write(tmp_path / "drive", said(TEXTS), BagWriterOptions(compression="file"))
     about = yaml.safe_load((bag / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
     assert about["version"] == 9
     assert about["ros_distro"] == "jazzy"
@@ -76,14 +76,14 @@ def test_a_bag_is_split_by_size(tmp_path: Path, storage: str) -> None:
     """Each file but the last is about as large as it may be."""
     least = LEAST_SPLIT[storage]
     texts = ["x" * (least // 4)] * 10
-    bag = write(tmp_path / "b", said(texts), Plan(storage, max_size=least))
+    bag = write(tmp_path / "b", said(texts), BagWriterOptions(storage, max_size=least))
     counts = [file.span.count for file in read_metadata(bag).files]
     assert counts == [4, 4, 2]
     assert [path.name for path in sorted(bag.glob("b_*"))] == [
         f.name for f in read_metadata(bag).files
     ]
     with pytest.raises(TooSmall, match=f"greater than {least}. Specified value of 10"):
-        BagWriter(tmp_path / "c", Plan(storage, max_size=10))
+        BagWriter(tmp_path / "c", BagWriterOptions(storage, max_size=10))
     assert not (tmp_path / "c").exists()
 
 
@@ -91,7 +91,9 @@ def test_a_bag_is_split_by_size(tmp_path: Path, storage: str) -> None:
 @pytest.mark.parametrize("compression", COMPRESSIONS)
 def test_metadata_are_made_again(tmp_path: Path, storage: str, compression: Compression) -> None:
     """From the files alone, the same as before."""
-    bag = write(tmp_path / "b", said(TEXTS), Plan(storage, compression, max_duration_s=1.0))
+    bag = write(
+        tmp_path / "b", said(TEXTS), BagWriterOptions(storage, compression, max_duration_s=1.0)
+    )
     before = read_metadata(bag)
     (bag / "metadata.yaml").unlink()
     with pytest.raises(NoMetadata, match="ros2 bag reindex"):
@@ -109,8 +111,8 @@ import os, signal, sys
 sys.path.insert(0, {here!r})
 from pathlib import Path
 from bags import TOPICS, raw, said
-from ros2_on_pip.rosbag2.writing import BagWriter, Plan
-writer = BagWriter(Path(sys.argv[1]), Plan(sys.argv[2]))
+from ros2_on_pip.rosbag2.writing import BagWriter, BagWriterOptions
+writer = BagWriter(Path(sys.argv[1]), BagWriterOptions(sys.argv[2]))
 for topic in TOPICS:
     writer.add_topic(topic)
 for number, (topic, time_ns, text) in enumerate(said([str(n) for n in range(200)])):
@@ -142,10 +144,10 @@ import resource, sys
 sys.path.insert(0, {here!r})
 from pathlib import Path
 from bags import TOPICS, raw, said
-from ros2_on_pip.rosbag2.errors import CannotWrite
-from ros2_on_pip.rosbag2.writing import BagWriter, Plan
+from ros2_on_pip.rosbag2.errors import BagNotWritable
+from ros2_on_pip.rosbag2.writing import BagWriter, BagWriterOptions
 resource.setrlimit(resource.RLIMIT_FSIZE, (1_500_000, 1_500_000))
-writer = BagWriter(Path(sys.argv[1]), Plan(sys.argv[2]))
+writer = BagWriter(Path(sys.argv[1]), BagWriterOptions(sys.argv[2]))
 for topic in TOPICS:
     writer.add_topic(topic)
 try:
@@ -153,7 +155,7 @@ try:
         writer.write(topic, time_ns, raw(text.rjust(1000)))
         if number % 50 == 49:
             writer.settle()
-except CannotWrite as trouble:
+except BagNotWritable as trouble:
     print(trouble)
 writer.close()
 """
@@ -174,7 +176,7 @@ def test_a_full_disk_leaves_a_whole_bag(tmp_path: Path, storage: str) -> None:
 @pytest.mark.parametrize("storage", STORAGES)
 def test_a_bag_without_messages(tmp_path: Path, storage: str) -> None:
     """It is a bag all the same."""
-    bag = write(tmp_path / "b", [], Plan(storage))
+    bag = write(tmp_path / "b", [], BagWriterOptions(storage))
     assert read_by_rosbags(bag) == []
     assert read_metadata(bag).span.count == 0
     assert reindex(bag).span.count == 0
@@ -184,12 +186,12 @@ def test_nothing_is_overwritten(tmp_path: Path) -> None:
     """A folder of that name stays as it is."""
     (tmp_path / "b").mkdir()
     with pytest.raises(BagThere, match="already exists"):
-        BagWriter(tmp_path / "b", Plan())
+        BagWriter(tmp_path / "b", BagWriterOptions())
     (tmp_path / "file").write_text("mine")
-    with pytest.raises(CannotWrite, match="Not a directory"):
-        BagWriter(tmp_path / "file" / "b", Plan())
-    with pytest.raises(BadName, match="-s mcap"):
-        write(tmp_path / "50%", [], Plan("sqlite3"))
+    with pytest.raises(BagNotWritable, match="Not a directory"):
+        BagWriter(tmp_path / "file" / "b", BagWriterOptions())
+    with pytest.raises(BadBagPath, match="-s mcap"):
+        write(tmp_path / "50%", [], BagWriterOptions("sqlite3"))
 
 
 def test_what_is_no_bag_is_told(tmp_path: Path) -> None:
@@ -229,9 +231,9 @@ def test_a_broken_bag_is_told(
     tmp_path: Path, storage: str, compression: Compression, how: Wound
 ) -> None:
     """Never a traceback."""
-    bag = write(tmp_path / "b", said(TEXTS * 40), Plan(storage, compression))
+    bag = write(tmp_path / "b", said(TEXTS * 40), BagWriterOptions(storage, compression))
     wound(bag, how)
-    with pytest.raises((Damaged, NoBag)) as told, opened(bag) as reader:
+    with pytest.raises((DamagedBag, NoBag)) as told, opened(bag) as reader:
         list(reader.messages())
     assert "\n" not in str(told.value) and "ros2 bag reindex" in str(told.value)
 
@@ -252,14 +254,26 @@ def test_a_torn_file_is_mended(tmp_path: Path) -> None:
 
 def test_a_topic_is_chosen() -> None:
     """By name, type and expression, and left out again."""
-    choice = Choice(names=["/a"], regex="^/cam", without=["/camera/info"], without_regex="raw$")
+    choice = TopicFilter(
+        names=["/a"], regex="^/cam", without=["/camera/info"], without_regex="raw$"
+    )
     names = ["/a", "/b", "/camera/image", "/camera/info", "/camera/raw"]
     assert [name for name in names if choice.takes(name, STRING_TYPE)] == ["/a", "/camera/image"]
-    assert Choice(types=[STRING_TYPE]).takes("/x", STRING_TYPE)
-    assert not Choice(types=[STRING_TYPE]).takes("/x", "std_msgs/msg/Bool")
-    assert Choice().takes("/x", STRING_TYPE)
+    assert TopicFilter(types=[STRING_TYPE]).takes("/x", STRING_TYPE)
+    assert not TopicFilter(types=[STRING_TYPE]).takes("/x", "std_msgs/msg/Bool")
+    assert TopicFilter().takes("/x", STRING_TYPE)
     with pytest.raises(BadExpression, match="no regular expression"):
-        Choice(regex="*")
+        TopicFilter(regex="*")
+
+
+def test_an_expression_matches_a_whole_name_where_that_is_asked_for() -> None:
+    """Of a bag that is read, as in rosbag2; while one is recorded a part is enough."""
+    for regex, part, whole in (("cam", True, False), ("/cam.*", True, True), ("/cam", True, False)):
+        assert TopicFilter(regex=regex).takes("/camera", STRING_TYPE) is part
+        assert TopicFilter(regex=regex, whole_names=True).takes("/camera", STRING_TYPE) is whole
+        assert TopicFilter(without_regex=regex).takes("/camera", STRING_TYPE) is not part
+        left = TopicFilter(without_regex=regex, whole_names=True).takes("/camera", STRING_TYPE)
+        assert left is not whole
 
 
 STRING_TYPE = TOPICS[0].type
@@ -305,7 +319,7 @@ def test_a_topic_that_comes_late_is_in_every_file(tmp_path: Path) -> None:
 
     from ros2_on_pip.rosbag2.quality import kept
 
-    writer = BagWriter(tmp_path / "b", Plan())
+    writer = BagWriter(tmp_path / "b", BagWriterOptions())
     writer.add_topic(TOPICS[0])
     writer.write("/heard", 1, raw("one"))
     writer.split()
@@ -348,7 +362,7 @@ def test_a_torn_file_of_another_recorder_is_mended(tmp_path: Path) -> None:
 def test_a_torn_compressed_file_is_mended(tmp_path: Path, storage: str) -> None:
     """What can still be unpacked is packed again, or it is said that nothing can be saved."""
     texts = [str(number).rjust(20_000) for number in range(200)]
-    bag = write(tmp_path / "b", said(texts), Plan(storage, "file"))
+    bag = write(tmp_path / "b", said(texts), BagWriterOptions(storage, "file"))
     file = next(bag.glob("*.zstd"))
     file.write_bytes(file.read_bytes()[:-20])
     if storage == "mcap":

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from bags import said, write
 
-from ros2_on_pip.rosbag2.writing import Plan
+from ros2_on_pip.rosbag2.writing import BagWriterOptions
 from sources import code_of
 
 sys.path.append(str(code_of("ros2_on_pip") / "stand_ins"))
@@ -23,13 +23,14 @@ import rosbag2_py
 Bag = Path
 Entry = Callable[[str, str], Any]
 STORAGES = {"mcap": "b_0.mcap", "sqlite3": "b_0.db3"}
+FILE = rosbag2_py.CompressionMode.FILE
 IDS = ("", "mcap", "sqlite3", "MCAP", "rosbag_v2", " mcap")
 
 
 @pytest.fixture(params=STORAGES)
 def bag(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[Bag, str]:
     """A bag of each storage, and which one it is."""
-    return write(tmp_path / "b", said("abc"), Plan(request.param)), request.param
+    return write(tmp_path / "b", said("abc"), BagWriterOptions(request.param)), request.param
 
 
 def read(uri: str, storage_id: str) -> int:
@@ -65,7 +66,8 @@ def reindex(uri: str, storage_id: str) -> int:
 
 def written(of: Any, uri: str, storage_id: str) -> str:
     """How a new bag is stored."""
-    writer = of()
+    compressed = of is rosbag2_py.SequentialCompressionWriter
+    writer = of(rosbag2_py.CompressionOptions("zstd", FILE)) if compressed else of()
     writer.open(rosbag2_py.StorageOptions(uri, storage_id), rosbag2_py.ConverterOptions())
     writer.close()
     return str(rosbag2_py.MetadataIo().read_metadata(uri).storage_identifier)

@@ -16,19 +16,25 @@ Read = Callable[[str], str]
 
 
 @dataclass
-class Round:
+class ExplainRound:
     """How many questions were asked so far, and how many first checks were named."""
 
     asked: int = 0
     right: int = 0
 
 
-def ask_all(found: Iterable[Question], read: Read, say: Callable[[str], None] = print) -> Round:
+def ask_all(
+    found: Iterable[Question], read: Read, say: Callable[[str], None] = print
+) -> ExplainRound:
     """Ask each; `q`, Ctrl-D and Ctrl-C end it."""
-    round_ = Round()
+    round_ = ExplainRound()
     try:
         for question in found:
-            say("\n".join([*listed(question.checks), "", *asked(round_.asked + 1, question)]))
+            say(
+                "\n".join(
+                    [*listed(question.checks), "", *question_lines(round_.asked + 1, question)]
+                )
+            )
             named = _named(question.checks, read, say)
             read("Why? One line, for yourself: ")
             round_.asked += 1
@@ -52,7 +58,7 @@ def _cut(text: str, room: int) -> str:
     return textwrap.shorten(text, room, placeholder=" ...")
 
 
-def asked(number: int, question: Question) -> list[str]:
+def question_lines(number: int, question: Question) -> list[str]:
     """Where the change is, and what it is."""
     change = question.change
     place = f"{number} of {WANTED}   {change.file}, line {change.line}"

@@ -20,11 +20,11 @@ from roslings.course import Lab
 from roslings_changes.card_words import words_of
 from roslings_changes.flow import called
 from roslings_changes.operators import OPERATORS
-from roslings_changes.source import Source, read_source
+from roslings_changes.source import ModuleSource, read_source
 
 
 @dataclass(frozen=True)
-class Change:
+class CodeChange:
     """One module of a package, made wrong in one place."""
 
     operator: str
@@ -55,12 +55,12 @@ LARGEST_BYTES = 100_000
 """A larger module is no student's, and LibCST would take long."""
 
 
-def candidates(lab: Lab, package: Path) -> list[Change]:
+def candidates(lab: Lab, package: Path) -> list[CodeChange]:
     """All that the operators make of a package of this lab, each program once.
 
     Raises ParserSyntaxError of LibCST where a module is no Python.
     """
-    found: dict[tuple[str, str], Change | None] = {}
+    found: dict[tuple[str, str], CodeChange | None] = {}
     for file in modules_of(lab, package):
         source = read_source(package, file)
         found[file, _meaning(source.text)] = None
@@ -82,7 +82,7 @@ def modules_of(lab: Lab, package: Path) -> Iterator[str]:
             yield path.relative_to(package).as_posix()
 
 
-def _changed(lab: Lab, source: Source) -> Iterator[Change]:
+def _changed(lab: Lab, source: ModuleSource) -> Iterator[CodeChange]:
     given = given_functions(lab, source)
     for node in source.nodes():
         if given & {node, *source.around(node)} or _is_own_log(lab, node, source):
@@ -95,7 +95,7 @@ def _changed(lab: Lab, source: Source) -> Iterator[Change]:
             for new in change(node, source):
                 text = source.with_new(node, new)
                 line = _first_difference(source.text, text)
-                yield Change(operator, source.file, line, source.text, text)
+                yield CodeChange(operator, source.file, line, source.text, text)
 
 
 # --- what no card asks for: the author's own, and what is given ---------------------------------
@@ -105,7 +105,7 @@ SMALL = 3
 """Up to so much, a whole number counts things or names one of them."""
 
 
-def given_functions(lab: Lab, source: Source) -> frozenset[cst.CSTNode]:
+def given_functions(lab: Lab, source: ModuleSource) -> frozenset[cst.CSTNode]:
     """The functions that the starter has word for word, but for remarks."""
     file = lab.starter / source.file
     if not file.is_file():
@@ -126,7 +126,7 @@ def _definitions(module: cst.Module) -> dict[str, cst.CSTNode]:
     }
 
 
-def _is_own_log(lab: Lab, node: cst.CSTNode, source: Source) -> bool:
+def _is_own_log(lab: Lab, node: cst.CSTNode, source: ModuleSource) -> bool:
     """It stands in, or is, a line that writes what no card names."""
     around = (node, *source.around(node))
     line = next((each for each in around if isinstance(each, cst.SimpleStatementLine)), None)

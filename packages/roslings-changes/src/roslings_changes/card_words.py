@@ -19,7 +19,7 @@ NAMES = ("executable", "topic", "service", "action", "name", "path")
 
 
 @dataclass(frozen=True)
-class Word:
+class CardWord:
     """One word that a card says, with all that is needed to say another one in its place."""
 
     path: Location
@@ -43,23 +43,23 @@ class Word:
         return ".".join(map(str, self.path))
 
 
-def words_of(file: Path) -> list[Word]:
+def words_of(file: Path) -> list[CardWord]:
     """The words that stand in a card, in its order, without those for people."""
     return [word for word in _all_of(file) if word.kind not in (Kind.PROSE, Kind.PROMISE)]
 
 
-def texts_of(file: Path) -> list[Word]:
+def texts_of(file: Path) -> list[CardWord]:
     """The texts of a card that say in words what the package does."""
     return [word for word in _all_of(file) if word.kind is Kind.PROMISE and word.value]
 
 
-def _all_of(file: Path) -> Iterator[Word]:
+def _all_of(file: Path) -> Iterator[CardWord]:
     return _in_contract(Card, read_tree(file), (), "", file)
 
 
 def _in_contract(
     model: type[Contract], tree: Mapping[str, Any], path: Location, name: str, file: Path
-) -> Iterator[Word]:
+) -> Iterator[CardWord]:
     for key, value in tree.items():
         field = model.model_fields[key]
         at, called = (*path, key), f"{name}.{key}".lstrip(".")
@@ -69,15 +69,17 @@ def _in_contract(
             pairs = value.items() if isinstance(value, dict) else enumerate(value)
             for part, said in pairs:
                 line = line_in(file, (*at, part))
-                yield Word((*at, part), f"{called}.{part}", kind, key, said, tree, (), file, line)
+                yield CardWord(
+                    (*at, part), f"{called}.{part}", kind, key, said, tree, (), file, line
+                )
         else:
             line = line_in(file, at)
-            yield Word(at, called, kind, key, value, tree, _choices(field), file, line)
+            yield CardWord(at, called, kind, key, value, tree, _choices(field), file, line)
 
 
 def _in_part(
     model: type[Contract], value: Any, path: Location, name: str, file: Path
-) -> Iterator[Word]:
+) -> Iterator[CardWord]:
     """One contract, a list of them, or some by name."""
     if isinstance(value, list):
         for number, each in enumerate(value):

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import libcst as cst
 
-from roslings_changes.source import New, Source, is_documentation
+from roslings_changes.source import ModuleSource, New, is_documentation
 
 LATE_S, FOR_EVER_S = 1.0, 1000.0
 BREAKS_IN_CALL = (1, 2, 3, 5, 7, 10)
@@ -19,7 +19,7 @@ SEEN_FROM_OUTSIDE = ("create_publisher", "create_subscription", "create_timer", 
 """What these make works on, though nobody has a name for it any more."""
 
 
-def drop(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def drop(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """A statement is left out."""
     if _ends_ros(node):
         return
@@ -29,14 +29,14 @@ def drop(node: cst.CSTNode, source: Source) -> Iterator[New]:
         yield cst.parse_statement("pass") if alone else cst.RemoveFromParent()
 
 
-def double(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def double(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """A statement that does something is there twice."""
     if isinstance(node, cst.SimpleStatementLine) and is_statement(node) and _does_more(node):
         plain = node.with_changes(leading_lines=[])
         yield cst.FlattenSentinel([node, plain])
 
 
-def early_return(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def early_return(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """A function ends before its end: before each statement but the last, which `drop` leaves.
 
     Or it does nothing from some call on.
@@ -48,7 +48,7 @@ def early_return(node: cst.CSTNode, source: Source) -> Iterator[New]:
             yield _with_at_begin(node, *_in_call(function, ">=", STOPS_IN_CALL, "return"))
 
 
-def blocks(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def blocks(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """A callback sleeps: a while each time, for ever, or for ever in some call."""
     function = _function_of(node, source)
     if isinstance(node, cst.IndentedBlock) and function and not _is_called_once(function):
@@ -59,7 +59,7 @@ def blocks(node: cst.CSTNode, source: Source) -> Iterator[New]:
         yield _with_at_begin(node, "import time\n", *later)
 
 
-def breaks(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def breaks(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """An exception in the n-th call of a function."""
     if isinstance(node, cst.IndentedBlock) and (function := _function_of(node, source)):
         yield _with_at_begin(node, f"{_raise(1)}\n")
@@ -68,7 +68,7 @@ def breaks(node: cst.CSTNode, source: Source) -> Iterator[New]:
                 yield _with_at_begin(node, *_in_call(function, "==", count, _raise(count)))
 
 
-def too_early(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def too_early(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """A value is used before it is there: before the statement that makes it, or None at first."""
     if isinstance(node, cst.IndentedBlock):
         for at, made in enumerate(node.body):
@@ -137,7 +137,7 @@ def _calls(node: cst.CSTNode) -> bool:
     return isinstance(node, cst.Call) or any(map(_calls, node.children))
 
 
-def _function_of(node: cst.CSTNode, source: Source) -> cst.FunctionDef | None:
+def _function_of(node: cst.CSTNode, source: ModuleSource) -> cst.FunctionDef | None:
     """The function whose whole body a node is."""
     if not isinstance(node, cst.IndentedBlock):
         return None
@@ -179,7 +179,7 @@ def _raise(count: int) -> str:
     return f"raise RuntimeError('in call {count}')"
 
 
-def _is_in_init(node: cst.CSTNode, source: Source) -> bool:
+def _is_in_init(node: cst.CSTNode, source: ModuleSource) -> bool:
     function = next((each for each in source.around(node) if isinstance(each, cst.FunctionDef)), 0)
     return isinstance(function, cst.FunctionDef) and function.name.value == "__init__"
 

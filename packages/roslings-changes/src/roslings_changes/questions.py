@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 
 from roslings.course import Lab
 from roslings.verdict import CheckResult, Verdict
-from roslings_changes.candidates import Change, candidates
+from roslings_changes.candidates import CodeChange, candidates
 
 WANTED = 3
 MOST_GRADED = 12
@@ -34,7 +34,7 @@ Grade = Callable[[Path], Verdict]
 class Question:
     """A change, and what the grader says of it."""
 
-    change: Change
+    change: CodeChange
     failed: CheckResult
     """The first check that fails."""
     checks: tuple[CheckResult, ...]
@@ -54,7 +54,7 @@ def questions(lab: Lab, package: Path, grade: Grade) -> Iterator[Question]:
             return
 
 
-def drawn(found: Iterable[Change]) -> Iterator[Change]:
+def drawn(found: Iterable[CodeChange]) -> Iterator[CodeChange]:
     """Those that are read easily, in an order that the package draws: each on another line."""
     plain = [
         each
@@ -68,11 +68,11 @@ def drawn(found: Iterable[Change]) -> Iterator[Change]:
             yield change
 
 
-def _lot(change: Change) -> str:
+def _lot(change: CodeChange) -> str:
     return hashlib.sha256(f"{change.before}\0{change.file}\0{change.changed}".encode()).hexdigest()
 
 
-def graded(package: Path, change: Change, grade: Grade) -> Verdict:
+def graded(package: Path, change: CodeChange, grade: Grade) -> Verdict:
     """What is said of a copy in which it is made; the package itself stays as it is."""
     with TemporaryDirectory(prefix="roslings-explain-") as folder:
         copy = Path(folder) / package.name

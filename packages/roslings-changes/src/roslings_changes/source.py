@@ -20,7 +20,7 @@ New = cst.CSTNode | cst.FlattenSentinel[cst.BaseStatement] | cst.RemovalSentinel
 
 
 @dataclass(frozen=True)
-class Source:
+class ModuleSource:
     """A module's tree, with the lines and the parents of its nodes."""
 
     file: str
@@ -66,14 +66,14 @@ class Source:
         return new.code
 
 
-def read_source(folder: Path, file: str) -> Source:
+def read_source(folder: Path, file: str) -> ModuleSource:
     """The module `file` of the package in `folder`. Raises ParserSyntaxError of LibCST."""
     text = (folder / file).read_text("utf-8")
     wrapper = MetadataWrapper(cst.parse_module(text))
     lines = wrapper.resolve(PositionProvider)
     parents = wrapper.resolve(ParentNodeProvider)
     starts = {node: place.start.line for node, place in lines.items()}
-    return Source(file, wrapper.module, text, starts, dict(parents))
+    return ModuleSource(file, wrapper.module, text, starts, dict(parents))
 
 
 def _below(node: cst.CSTNode) -> Iterator[cst.CSTNode]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import libcst as cst
 
-from roslings_changes.source import New, Source
+from roslings_changes.source import ModuleSource, New
 
 UNIT = re.compile(r"\b(m|mm|cm|s|ms|seconds?|metres?|rad|degrees?|Hz|m/s|rad/s|points?)\b")
 ANGLE = re.compile(r"\brad\b")
@@ -22,7 +22,7 @@ NAME = re.compile(r"[~/]?[A-Za-z]\w*(?:[/.]\w+)*")
 # --- numbers -----------------------------------------------------------------------------------
 
 
-def number(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def number(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """A whole number is one off, or ten; any other is by a half, or its point is elsewhere."""
     if isinstance(node, cst.Integer) and not _is_depth(node, source):
         value = int(node.value, 0)
@@ -34,7 +34,7 @@ def number(node: cst.CSTNode, source: Source) -> Iterator[New]:
         yield from (_float(seen * factor) for factor in OFF_BY) if seen else [_float(1.0)]
 
 
-def _is_depth(node: cst.Integer, source: Source) -> bool:
+def _is_depth(node: cst.Integer, source: ModuleSource) -> bool:
     """The depth of a queue: nobody can tell whether there was room for one more."""
     arg = source.parent(node)
     call = source.parent(arg)
@@ -46,7 +46,7 @@ def _is_depth(node: cst.Integer, source: Source) -> bool:
     return False
 
 
-def unit(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def unit(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """Milli for whole, centi for whole, degrees for radians, where something has a unit."""
     if isinstance(node, cst.Float | cst.Integer) and _has_unit(node, source):
         yield from _in_other_units(node, source)
@@ -58,21 +58,21 @@ def unit(node: cst.CSTNode, source: Source) -> Iterator[New]:
         yield from (_times(node, factor) for factor in FACTORS)
 
 
-def _has_unit(node: cst.Float | cst.Integer, source: Source) -> bool:
+def _has_unit(node: cst.Float | cst.Integer, source: ModuleSource) -> bool:
     """A fraction of something, or a number behind which its unit is said."""
     if float(node.value) == 0:
         return False
     return isinstance(node, cst.Float) or bool(UNIT.search(source.comment(node)))
 
 
-def _in_other_units(node: cst.Float | cst.Integer, source: Source) -> Iterator[New]:
+def _in_other_units(node: cst.Float | cst.Integer, source: ModuleSource) -> Iterator[New]:
     value = float(node.value)
     yield from (_float(value * factor) for factor in (*FACTORS, 1 / FACTORS[0]))
     if ANGLE.search(source.comment(node)):
         yield _float(value * DEGREES)
 
 
-def _is_quantity(node: cst.CSTNode, source: Source) -> bool:
+def _is_quantity(node: cst.CSTNode, source: ModuleSource) -> bool:
     """Something computed by multiplying or dividing, and no part of a larger such thing."""
     return _is_product(node) and not _is_product(source.parent(node))
 
@@ -108,7 +108,7 @@ def _float(value: float) -> cst.Float:
     return cst.Float(text if re.search(r"[.e]", text) else f"{text}.0")
 
 
-def sign(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def sign(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """Plus for minus, and the other way round."""
     match node:
         case cst.UnaryOperation(operator=cst.Minus()):
@@ -125,12 +125,12 @@ def sign(node: cst.CSTNode, source: Source) -> Iterator[New]:
             yield cst.AddAssign()
 
 
-def _is_signed(node: cst.CSTNode, source: Source) -> bool:
+def _is_signed(node: cst.CSTNode, source: ModuleSource) -> bool:
     """It has a sign, or is added by `+=`, whose own sign is changed."""
     return isinstance(source.parent(node), cst.UnaryOperation | cst.AugAssign)
 
 
-def arithmetic(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def arithmetic(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """Times for divided by, and the other way round."""
     match node:
         case cst.Multiply():
@@ -155,13 +155,13 @@ OTHERS: dict[type[cst.BaseCompOp], tuple[type[cst.BaseCompOp], ...]] = {
 }
 
 
-def comparison(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def comparison(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """The edge counted or not counted, and the other way round."""
     if isinstance(node, cst.BaseCompOp):
         yield from (other() for other in OTHERS.get(type(node), ()))
 
 
-def condition(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def condition(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """`and` for `or`, a `not` lost, one too many, and yes for no."""
     match node:
         case cst.And():
@@ -186,7 +186,7 @@ def _not(test: cst.BaseExpression) -> cst.UnaryOperation:
 # --- names and texts ---------------------------------------------------------------------------
 
 
-def name(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def name(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """A text that is a name: a letter lost, added or in another case, two swapped."""
     if isinstance(node, cst.SimpleString) and NAME.fullmatch(node.raw_value):
         text = node.raw_value
@@ -195,7 +195,7 @@ def name(node: cst.CSTNode, source: Source) -> Iterator[New]:
             yield _said(node, _in_other_case(text))
 
 
-def _is_encoding(node: cst.SimpleString, source: Source) -> bool:
+def _is_encoding(node: cst.SimpleString, source: ModuleSource) -> bool:
     """Python takes its name in small and large letters alike."""
     arg = source.parent(node)
     call = source.parent(arg) if isinstance(arg, cst.Arg) else None
@@ -213,7 +213,7 @@ def _misspelt(text: str) -> Iterator[str]:
     yield text[: middle - 1] + text[middle] + text[middle - 1] + text[middle + 1 :]
 
 
-def text(node: cst.CSTNode, source: Source) -> Iterator[New]:
+def text(node: cst.CSTNode, source: ModuleSource) -> Iterator[New]:
     """Another text: a part lost, a blank added, another case, the `f` forgotten.
 
     A text that no card names is the author's own; `choice` leaves it out.

@@ -1,8 +1,8 @@
 """How many gradings at once: measured, because a part of a grading is waiting.
 
 It begins with one for each core: the experiments of a grading run side by side, and keep a core
-busy. While the processors have time to spare and there is memory for one more, one more is let in;
-when nothing is left to spare, one fewer, down to one for each core.
+busy. While the processors have time to spare and there is memory for one more, one more is let in.
+When nothing is left to spare, it is one fewer, down to one for each core.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ SPARE, BUSY = 0.03, 0.005
 """Idle part of the processors above which one more is let in, and below which one fewer."""
 LOOK_EVERY_S = 3.0
 NEWEST = 0.3
-"""What the newest look weighs in the mean: those that build at the same time wait at the same time,
-so that one look often sees only the one or only the other."""
+"""What the newest look weighs in the mean. Those that build at the same time wait at the same time.
+So one look often sees only the one or only the other."""
 MOST_PER_CORE = 2
 MOST_SOAKING_PER_CORE = 16
 """Those whose nodes only run on: half a minute of it fills this with gradings of two seconds."""
@@ -29,7 +29,7 @@ NEEDS_BYTES = 500_000_000
 
 
 @dataclass(frozen=True)
-class Look:
+class MachineLoad:
     """The machine at one moment."""
 
     at_s: float
@@ -38,9 +38,9 @@ class Look:
     free_bytes: int
 
 
-def look() -> Look:
+def look() -> MachineLoad:
     """Look at this machine."""
-    return Look(time.monotonic(), _idle_s(), _free_bytes())
+    return MachineLoad(time.monotonic(), _idle_s(), _free_bytes())
 
 
 def _idle_s() -> float:
@@ -64,9 +64,9 @@ class Capacity:
     alone: bool = False
     """Whether one that only waits, while its nodes run on, keeps its place."""
     cores: int = field(default_factory=cores)
-    look: Callable[[], Look] = look
+    look: Callable[[], MachineLoad] = look
     allowed: int = 0
-    _last: Look | None = None
+    _last: MachineLoad | None = None
     _idle: float | None = None
     """The idle part of the processors: a mean in which older looks weigh less and less."""
 
@@ -87,7 +87,7 @@ class Capacity:
         busy = self.fixed or self._busy(working - soaking, seen)
         return max(1, min(busy + soaking, working + seen.free_bytes // NEEDS_BYTES))
 
-    def _busy(self, working: int, seen: Look) -> int:
+    def _busy(self, working: int, seen: MachineLoad) -> int:
         """How many may compute now, of whom `working` do already."""
         if self._last is None:
             self._last = seen
@@ -96,7 +96,7 @@ class Capacity:
             self._last = seen
         return self.allowed
 
-    def _idle_part(self, seen: Look) -> float:
+    def _idle_part(self, seen: MachineLoad) -> float:
         assert self._last is not None
         passed_s = seen.at_s - self._last.at_s
         return (seen.idle_s - self._last.idle_s) / (passed_s * (os.cpu_count() or 1))

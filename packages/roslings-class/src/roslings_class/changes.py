@@ -13,7 +13,7 @@ from ros2_on_pip.safe_text import harmless
 from ros2_on_pip.typed_paths import from_here
 from roslings.verdict import CheckResult, Verdict
 from roslings_class.gradebook import Gradebook
-from roslings_class.grades import Grade
+from roslings_class.grades import StudentGrade
 
 CHANGED_LAST = "regraded"
 """The gradebook's fact about the last regrade that changed anything."""
@@ -24,7 +24,7 @@ SCORE = "score"
 """In place of a check's name: the whole."""
 
 
-class Change(BaseModel):
+class GradeChange(BaseModel):
     """One check, or the score, of one submission."""
 
     submission: str
@@ -39,7 +39,7 @@ class Regrading(BaseModel):
     at: datetime
     judged: int
     """How many submissions were judged again."""
-    changes: list[Change]
+    changes: list[GradeChange]
 
     @property
     def summary(self) -> str:
@@ -49,7 +49,7 @@ class Regrading(BaseModel):
         checks = sum(change.check != SCORE for change in self.changes)
         return f"{when}. Judged: {self.judged}. Changed: {count}, in {checks} checks together."
 
-    def told(self, grades: Sequence[Grade]) -> Iterator[tuple[str, Change]]:
+    def told(self, grades: Sequence[StudentGrade]) -> Iterator[tuple[str, GradeChange]]:
         """Each change with the name of whose it is."""
         owners: defaultdict[str, list[str]] = defaultdict(list)
         for grade in grades:
@@ -58,19 +58,21 @@ class Regrading(BaseModel):
             yield ", ".join(owners[change.submission]) or change.submission, change
 
 
-def changes(submission: str, before: Verdict, after: Verdict) -> Iterator[Change]:
+def changes(submission: str, before: Verdict, after: Verdict) -> Iterator[GradeChange]:
     """What is another in a verdict of the same evidence, the score first."""
     if before.score != after.score:
-        yield Change(submission=submission, check=SCORE, before=_score(before), after=_score(after))
+        yield GradeChange(
+            submission=submission, check=SCORE, before=_score(before), after=_score(after)
+        )
     was = {check.id: check for check in before.checks}
     now = {check.id: check for check in after.checks}
     for name in {**was, **now}:
         told = [_told(checks.get(name)) for checks in (was, now)]
         if told[0] != told[1]:
-            yield Change(submission=submission, check=name, before=told[0], after=told[1])
+            yield GradeChange(submission=submission, check=name, before=told[0], after=told[1])
 
 
-def changed_lines(regrading: Regrading, grades: Sequence[Grade], folder: Path) -> list[str]:
+def changed_lines(regrading: Regrading, grades: Sequence[StudentGrade], folder: Path) -> list[str]:
     """The first of them for the terminal, and where all are."""
     told = [
         f"  {harmless(who)}: {each.check}, {each.before} -> {each.after}"

@@ -10,11 +10,11 @@ from pathlib import Path
 
 from ros2_on_pip.markup import Markup, prose, tag
 from roslings.course import Lab
-from roslings.saving import asked_rates
+from roslings.grading.saving import required_rates
 from roslings_class.changes import Regrading
 from roslings_class.class_table import everybody, page_link
-from roslings_class.grades import SAY_WHOSE, Class, Grade
-from roslings_class.result import Result
+from roslings_class.grades import SAY_WHOSE, Class, StudentGrade
+from roslings_class.result import GradingResult
 from roslings_class.similar import Pair, alike, equal_groups
 from roslings_class.sorted_table import write_page
 
@@ -34,7 +34,7 @@ def write_class_page(
     path: Path,
     regrading: Regrading | None = None,
 ) -> None:
-    """Write the page; `common` are the marks of the starter. Raises CannotWrite."""
+    """Write the page; `common` are the marks of the starter. Raises CannotWriteFile."""
     parts = _parts(lab, found, common, regrading)
     write_page(path, f"Lab {lab.name}", lab.card.title, parts)
 
@@ -50,7 +50,7 @@ def _parts(
     yield from (*_rates(lab, results), *_alike(results, common))
 
 
-def _first(results: Sequence[Result], grades: Sequence[Grade]) -> Iterator[Markup]:
+def _first(results: Sequence[GradingResult], grades: Sequence[StudentGrade]) -> Iterator[Markup]:
     """What most have to mend, and how the points spread: side by side where there is room."""
     parts = [*_checks(results), *_scores(grades)]
     if parts:
@@ -67,7 +67,7 @@ def _overview(found: Class) -> Iterator[Markup]:
         yield tag("p", f"Scores: mean {mean:.0f}, median {median:g}, of {len(scores)}.")
 
 
-def _scores(grades: Sequence[Grade]) -> Iterator[Markup]:
+def _scores(grades: Sequence[StudentGrade]) -> Iterator[Markup]:
     scores = [grade.final for grade in grades if grade.final is not None]
     if not scores:
         return
@@ -85,7 +85,7 @@ def _scores(grades: Sequence[Grade]) -> Iterator[Markup]:
     yield tag("section", tag("h2", "Scores"), _table(("score", "part of all", "how many"), rows))
 
 
-def _checks(results: Sequence[Result]) -> Iterator[Markup]:
+def _checks(results: Sequence[GradingResult]) -> Iterator[Markup]:
     """Those that fail most come first."""
     checks = [c for result in results if result.verdict for c in result.verdict.checks]
     counts: defaultdict[str, Counter[str]] = defaultdict(Counter)
@@ -142,11 +142,11 @@ def _failed_part(counts: Counter[str]) -> float:
 # --- rates -------------------------------------------------------------------------------------
 
 
-def _rates(lab: Lab, results: Sequence[Result]) -> Iterator[Markup]:
+def _rates(lab: Lab, results: Sequence[GradingResult]) -> Iterator[Markup]:
     """Of those who have everybody's card: where cards differ, there is no one right rate."""
     figures = []
     alike = [result.rates for result in results if not result.words]
-    for asked in asked_rates(lab):
+    for asked in required_rates(lab):
         rates = [found[asked.topic] for found in alike if asked.topic in found]
         if rates:
             low, high = min(asked.low_hz, *rates), max(asked.high_hz, *rates)
@@ -194,7 +194,7 @@ def _spread(
 # --- who is alike ------------------------------------------------------------------------------
 
 
-def _alike(results: Sequence[Result], common: Iterable[int]) -> Iterator[Markup]:
+def _alike(results: Sequence[GradingResult], common: Iterable[int]) -> Iterator[Markup]:
     groups, pairs = equal_groups(results), alike(results, common)
     if not groups and not pairs:
         return
@@ -236,7 +236,7 @@ def _loose_ends(found: Class) -> Iterator[Markup]:
         yield tag("section", heading, tag("ul", *items), *step)
 
 
-def _unusual(results: Sequence[Result]) -> Iterator[Markup]:
+def _unusual(results: Sequence[GradingResult]) -> Iterator[Markup]:
     """Also of whom no verdict could be told: its neighbours may have waited for it."""
     rows = [
         _row((page_link(each.submission), line))
@@ -253,14 +253,14 @@ def _unusual(results: Sequence[Result]) -> Iterator[Markup]:
         yield tag("section", tag("h2", "What was not ordinary"), about, table)
 
 
-def _missing(grades: Sequence[Grade]) -> Iterator[Markup]:
+def _missing(grades: Sequence[StudentGrade]) -> Iterator[Markup]:
     rows = [_row((who.name, who.id, who.email)) for each in grades if (who := each.student)]
     if rows:
         heading = f"Handed in nothing ({len(rows)})"
         yield tag("section", tag("h2", heading), _table(("who", "id", "address"), rows))
 
 
-def _judged_again(regrading: Regrading | None, grades: Sequence[Grade]) -> Iterator[Markup]:
+def _judged_again(regrading: Regrading | None, grades: Sequence[StudentGrade]) -> Iterator[Markup]:
     """After a regrade: who, which check, from, to."""
     if regrading is None:
         return

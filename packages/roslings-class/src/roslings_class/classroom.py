@@ -53,7 +53,7 @@ class CannotServe(CourseError):
 
 
 @dataclass(frozen=True)
-class Offer:
+class Handout:
     """What is handed out: files by the path of their address."""
 
     files: dict[str, Path]
@@ -81,7 +81,7 @@ def project(wheel: str) -> str:
     return normal(wheel.partition("-")[0])
 
 
-def made_in(scratch: Path, wheels: Path | None, site: Path | None) -> Offer:
+def made_in(scratch: Path, wheels: Path | None, site: Path | None) -> Handout:
     """All that this course can hand out; what has to be made for it lies in `scratch`.
 
     Raises CannotServe, CannotRelease, NoAddress.
@@ -100,11 +100,13 @@ def _built_site() -> Path | None:
     return built if (built / "index.html").is_file() else None
 
 
-def offer(edition: Path, own: Path, wheels: Mapping[str, Path], pages: Mapping[str, Path]) -> Offer:
+def offer(
+    edition: Path, own: Path, wheels: Mapping[str, Path], pages: Mapping[str, Path]
+) -> Handout:
     """The edition, packed into an archive beside it; its wheel `own`, other wheels, and pages."""
     found = {own.name: own, **wheels}
     files = {ARCHIVE: packed(edition)} | {f"wheels/{name}": at for name, at in found.items()}
-    return Offer({**files, **pages}, found, bool(pages))
+    return Handout({**files, **pages}, found, bool(pages))
 
 
 def packed(edition: Path) -> Path:
@@ -165,7 +167,7 @@ def commands(address: str) -> list[str]:
     ]
 
 
-def start_page(offered: Offer, address: str) -> str:
+def start_page(offered: Handout, address: str) -> str:
     """The page at the address itself."""
     typed = html.escape("\n".join(commands(address)))
     pythons = ", ".join(offered.pythons)
@@ -190,13 +192,13 @@ def start_page(offered: Offer, address: str) -> str:
     )
 
 
-def index_page(offered: Offer) -> str:
+def index_page(offered: Handout) -> str:
     """All packages."""
     links = "\n".join(f'<a href="/simple/{name}/">{name}</a><br>' for name in offered.projects)
     return _page("packages", links)
 
 
-def project_page(offered: Offer, name: str) -> str | None:
+def project_page(offered: Handout, name: str) -> str | None:
     """The wheels of a package, with their digests; None where there is none."""
     wheels = offered.projects.get(name)
     if wheels is None:
@@ -228,7 +230,7 @@ def _page(title: str, body: str) -> str:
     )
 
 
-def told(offered: Offer, addresses: list[str]) -> str:
+def told(offered: Handout, addresses: list[str]) -> str:
     """What the instructor reads."""
     pythons = ", ".join(offered.pythons)
     wheels = (
@@ -251,7 +253,7 @@ def told(offered: Offer, addresses: list[str]) -> str:
 
 
 class _Answer(BaseHTTPRequestHandler):
-    offered: Offer
+    offered: Handout
     protocol_version = "HTTP/1.1"
     timeout = QUIET_S
     server_version = "roslings"
@@ -339,7 +341,7 @@ class _Server(ThreadingHTTPServer):
 
 
 @contextmanager
-def serving(offered: Offer, host: str, port: int) -> Iterator[list[str]]:
+def serving(offered: Handout, host: str, port: int) -> Iterator[list[str]]:
     """The addresses under which all of it can be had while the block runs.
 
     Raises CannotServe.

@@ -15,7 +15,7 @@ ENDS_WITHIN_S = 30.0
 ASKS = (signal.SIGINT, signal.SIGTERM)
 
 
-class Asked(BaseException):
+class EndRequested(BaseException):
     """Somebody wants this command to end."""
 
 
@@ -36,7 +36,7 @@ def run_until_asked(command: Sequence[str], ends_within_s: float) -> int:
         try:
             signal.pthread_sigmask(signal.SIG_UNBLOCK, ASKS)
             return abs(process.wait())
-        except Asked:
+        except EndRequested:
             _end(process, ends_within_s)
             return 0
 
@@ -47,7 +47,7 @@ def _begin() -> None:
 
 
 def _ask(number: int, frame: FrameType | None) -> None:
-    raise Asked
+    raise EndRequested
 
 
 def _end(process: subprocess.Popen[bytes], within_s: float) -> None:
@@ -55,6 +55,6 @@ def _end(process: subprocess.Popen[bytes], within_s: float) -> None:
     try:
         process.terminate()
         process.wait(within_s)
-    except (subprocess.TimeoutExpired, Asked):
+    except (subprocess.TimeoutExpired, EndRequested):
         process.kill()
         process.wait()

@@ -13,11 +13,11 @@ from roslings import course
 from roslings.arena import Isolation
 from roslings.course import Lab
 from roslings.course.soak import soak_seconds
+from roslings.course.variants import chosen
 from roslings.experiment import insist_on_wall
 from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.experiment.walls import closed_places
-from roslings.report.progress import Progress
-from roslings.variants import chosen
+from roslings.report.progress import ProgressLine
 from roslings_class.alone import alone_in
 from roslings_class.capacity import Capacity
 from roslings_class.clock_times import zone_named
@@ -25,7 +25,7 @@ from roslings_class.dask_pool import DaskPool, dask_pool
 from roslings_class.downloads import submissions_at
 from roslings_class.errors import BatchError
 from roslings_class.explaining import explain
-from roslings_class.feedback import Given
+from roslings_class.feedback import DownloadedHandIn
 from roslings_class.gradebook import Gradebook, gradebook
 from roslings_class.handed_in import told_at, told_by_itself
 from roslings_class.handing_out import Settings, hand_out, keep
@@ -39,12 +39,12 @@ from roslings_class.messages import (
 )
 from roslings_class.moodle_worksheet import read_worksheet
 from roslings_class.own_cards import NoList, OneMachine, OwnCards, own_cards
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.roster import insist_on_owners, read_roster
-from roslings_class.scheduler import GradingRequest, Scheduler, Standing
+from roslings_class.scheduler import BatchProgress, GradingRequest, Scheduler
 from roslings_class.signed_gradebook import take_key
 from roslings_class.submissions import Submission
-from roslings_class.worker_pool import Limits
+from roslings_class.worker_pool import GradingLimits
 
 
 class AlreadyGrading(BatchError):
@@ -67,7 +67,7 @@ class NoDeadline(BatchError):
 
 
 @dataclass(frozen=True)
-class Choices:
+class GradeOptions:
     """The options of the command."""
 
     lab: str
@@ -78,7 +78,7 @@ class Choices:
     trust: bool = False
     clock: str = "auto"
     keeps_evidence: bool = True
-    limit_s: float = Limits().seconds
+    limit_s: float = GradingLimits().seconds
     roster: Path | None = None
     rule: LateRule | None = None
     extensions: Path | None = None
@@ -110,7 +110,7 @@ class Report:
     """Submissions of which nobody could tell."""
 
 
-def grade(choices: Choices) -> Report:
+def grade(choices: GradeOptions) -> Report:
     """Grade all submissions, or go on where an earlier run was ended.
 
     Raises BatchError, CourseError, and what the gradebook's disk refuses.
@@ -125,7 +125,7 @@ def grade(choices: Choices) -> Report:
         return _graded(choices, lab, submissions)
 
 
-def _insist_on_owners_of_cards(choices: Choices, lab: Lab) -> None:
+def _insist_on_owners_of_cards(choices: GradeOptions, lab: Lab) -> None:
     """Raises NoList, OneMachine, NoVariants, BadCourseFile."""
     if not choices.roster:
         raise NoList
@@ -134,7 +134,7 @@ def _insist_on_owners_of_cards(choices: Choices, lab: Lab) -> None:
     chosen(lab, "anybody").card()
 
 
-def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report:
+def _graded(choices: GradeOptions, lab: Lab, submissions: list[Submission]) -> Report:
     settings = settings_for(choices, submissions)
     lines: list[str] = []
     if not choices.dask and not choices.trust:
@@ -163,12 +163,12 @@ def _graded(choices: Choices, lab: Lab, submissions: list[Submission]) -> Report
 
 
 def _explain(
-    choices: Choices, submissions: list[Submission], latest: Mapping[str, Result]
+    choices: GradeOptions, submissions: list[Submission], latest: Mapping[str, GradingResult]
 ) -> list[str]:
     """Questions about what passes, where they were asked for."""
     if not choices.explain:
         return []
-    with Progress() as progress:
+    with ProgressLine() as progress:
         return explain(choices.lab, submissions, latest, choices.out, choices.trust, progress.step)
 
 
@@ -182,12 +182,12 @@ def _anew(names: set[str]) -> list[str]:
     ]
 
 
-def _at_once(choices: Choices, wall: Isolation) -> Choices:
+def _at_once(choices: GradeOptions, wall: Isolation) -> GradeOptions:
     """Users of one machine share its network: one at a time, none can speak in another's place."""
     return replace(choices, jobs=1, alone=True) if wall.wall == "user" else choices
 
 
-def _make(choices: Choices) -> None:
+def _make(choices: GradeOptions) -> None:
     """The folder of the gradebook, for nobody else's eyes. Raises BatchError."""
     out = choices.out.absolute()
     if out.is_relative_to(choices.submissions.absolute()):
@@ -205,7 +205,7 @@ def make_private(out: Path) -> None:
         raise BatchError(problem, "Give a place where you may write: --out ~/grades") from error
 
 
-def settings_for(choices: Choices, submissions: list[Submission]) -> Settings:
+def settings_for(choices: GradeOptions, submissions: list[Submission]) -> Settings:
     """A class list that cannot be read, or is of others, is told before anything is run.
 
     Raises BadTable, NobodyInTheList.
@@ -231,15 +231,17 @@ def settings_for(choices: Choices, submissions: list[Submission]) -> Settings:
     )
 
 
-def given_names(submissions: list[Submission]) -> dict[str, Given]:
+def given_names(submissions: list[Submission]) -> dict[str, DownloadedHandIn]:
     """What each was called in the download, and which are clones."""
     return {
-        each.name: Given(name=harmless(each.path.name), is_clone=(each.path / ".git").is_dir())
+        each.name: DownloadedHandIn(
+            name=harmless(each.path.name), is_clone=(each.path / ".git").is_dir()
+        )
         for each in submissions
     }
 
 
-def _rule(choices: Choices, submissions: list[str]) -> LateRule | None:
+def _rule(choices: GradeOptions, submissions: list[str]) -> LateRule | None:
     """With everybody's own time in it. Raises BadTable, ExtensionOfNobody, NoDeadline."""
     if choices.extensions is None:
         return choices.rule
@@ -253,9 +255,9 @@ def _rule(choices: Choices, submissions: list[str]) -> LateRule | None:
 
 
 def _grade_all(
-    choices: Choices, submissions: list[Submission], book: Gradebook, soak_s: float
+    choices: GradeOptions, submissions: list[Submission], book: Gradebook, soak_s: float
 ) -> None:
-    with run_folder() as scratch, Progress() as progress:
+    with run_folder() as scratch, ProgressLine() as progress:
         request = GradingRequest(
             lab=choices.lab,
             scratch=scratch,
@@ -264,11 +266,11 @@ def _grade_all(
             hidden=choices.hidden.absolute() if choices.hidden else None,
             strangers=not choices.trust,
             keeps_evidence=choices.keeps_evidence,
-            limits=Limits(choices.limit_s),
+            limits=GradingLimits(choices.limit_s),
             soak_s=soak_s,
             cards=_cards(choices, submissions, scratch / "cards"),
         )
-        teller = Teller(progress)
+        teller = ProgressTeller(progress)
         if choices.dask is None:
             capacity = Capacity(fixed=choices.jobs, alone=choices.alone)
             Scheduler(request, book, capacity, teller).run(submissions)
@@ -278,7 +280,7 @@ def _grade_all(
                 Scheduler(request, book, ClusterCapacity(workers), teller).run(submissions, workers)
 
 
-def _cards(choices: Choices, submissions: list[Submission], folder: Path) -> OwnCards | None:
+def _cards(choices: GradeOptions, submissions: list[Submission], folder: Path) -> OwnCards | None:
     if not choices.variants or not choices.roster:
         return None
     students, names = read_roster(choices.roster), [each.name for each in submissions]
@@ -298,13 +300,13 @@ class ClusterCapacity:
 
 
 @dataclass
-class Teller:
+class ProgressTeller:
     """Says how far the work is, when that has changed."""
 
-    progress: Progress
+    progress: ProgressLine
     said: tuple[int, int] | None = None
 
-    def __call__(self, standing: Standing) -> None:
+    def __call__(self, standing: BatchProgress) -> None:
         """Say it: always on a terminal, where the line is drawn anew, else only what is new."""
         now = (standing.done, standing.unclear)
         if sys.stderr.isatty() or now != self.said:

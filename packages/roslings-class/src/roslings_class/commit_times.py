@@ -3,7 +3,7 @@
 The clock is that of the computer on which it was made, which is the student's: who sets it back is
 early. A platform's word stands before it.
 
-A clone may hold what its author put there, so no program runs by its settings: `git` reads one
+A clone may hold what its author put there, so no program runs by its settings. `git` reads one
 object of it (`GIT_OBJECT_DIRECTORY`), in an empty repository of ours, without a network. Facts of
 git: gitrepository-layout(5), git-cat-file(1); a commit's second date is that of its committer.
 """

@@ -1,11 +1,12 @@
 """The grades as CSV: with all columns, and as Canvas and Moodle read them.
 
-What Canvas's importer asks for (canvas-lms, lib/gradebook_importer.rb): commas, UTF-8 without a
-mark, a header whose first two cells hold `Student` and `ID`, then `SIS User ID`, `SIS Login ID`,
-and `Section` last before the assignments; a line `Points Possible`. A student is found by the ID,
-else by the SIS User ID, the SIS Login ID, the name. An assignment is found by the number in
-brackets behind its name, else by its name; else a new one is made. **An empty cell takes away the
-score that was there**, so who has no score has no line; who has no line keeps what was there.
+This is what Canvas's importer asks for (canvas-lms, lib/gradebook_importer.rb). It asks for commas,
+UTF-8 without a mark, a header, and a line `Points Possible`. The header's first two cells hold
+`Student` and `ID`. Then come `SIS User ID`, `SIS Login ID`, and `Section` last before the
+assignments. A student is found by the ID, else by the SIS User ID, the SIS Login ID, the name. An
+assignment is found by the number in brackets behind its name, else by its name; else a new one is
+made. **An empty cell takes away the score that was there**, so who has no score has no line. Who
+has no line keeps what was there.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from roslings.report.flow import one_line
 from roslings.report.shown_checks import shown_checks
 from roslings.report.whole_file import write_whole
 from roslings_class.changes import Regrading
-from roslings_class.grades import SAY_WHOSE, Grade
+from roslings_class.grades import SAY_WHOSE, StudentGrade
 from roslings_class.moodle_worksheet import Mark, Worksheet
 from roslings_class.roster import IDENTIFIER
 
@@ -34,7 +35,7 @@ Line = Sequence[str]
 
 
 def write_all(
-    grades: Sequence[Grade],
+    grades: Sequence[StudentGrade],
     lab: Lab,
     folder: Path,
     assignment: str = "",
@@ -45,7 +46,7 @@ def write_all(
 
     `whole` are the points that the platform gives for a score of 100. With Moodle's own worksheet,
     moodle.csv is that, filled in, in its own points; without, it is a table for Moodle's gradebook.
-    Raises CannotWrite.
+    Raises CannotWriteFile.
     """
     write_lines(folder / "grades.csv", _plain(grades, list(lab.card.points), whole))
     title = assignment or f"{lab.card.title} ({lab.name})"
@@ -57,15 +58,15 @@ def write_all(
         write_whole(folder / "moodle.csv", worksheet.filled(marks))
 
 
-def write_changes(regrading: Regrading, grades: Sequence[Grade], path: Path) -> None:
-    """Write what the last regrade changed. Raises CannotWrite."""
+def write_changes(regrading: Regrading, grades: Sequence[StudentGrade], path: Path) -> None:
+    """Write what the last regrade changed. Raises CannotWriteFile."""
     told = regrading.told(grades)
     lines = [(who, each.submission, each.check, each.before, each.after) for who, each in told]
     write_lines(path, [("name", "submission", "check", "from", "to"), *lines])
 
 
 def write_lines(path: Path, lines: Iterable[Line]) -> None:
-    """Write a table in which no cell is a formula. Raises CannotWrite."""
+    """Write a table in which no cell is a formula. Raises CannotWriteFile."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(
         [_safe(cell) for cell in line] for line in lines
@@ -78,7 +79,7 @@ def _safe(cell: str) -> str:
     return f"'{text}" if text.startswith(FORMULA) else text
 
 
-def _plain(grades: Sequence[Grade], checks: Sequence[str], whole: float) -> Iterable[Line]:
+def _plain(grades: Sequence[StudentGrade], checks: Sequence[str], whole: float) -> Iterable[Line]:
     yield (
         "name",
         "id",
@@ -119,11 +120,11 @@ def _plain(grades: Sequence[Grade], checks: Sequence[str], whole: float) -> Iter
         )
 
 
-def _team(grade: Grade) -> str:
+def _team(grade: StudentGrade) -> str:
     return "; ".join(grade.team) if len(grade.team) > 1 else ""
 
 
-def _handed_in(grade: Grade) -> tuple[str, str]:
+def _handed_in(grade: StudentGrade) -> tuple[str, str]:
     """When, and who says so; what is missing where days cannot be counted."""
     told = grade.handed_in
     if grade.result is None:
@@ -131,13 +132,13 @@ def _handed_in(grade: Grade) -> tuple[str, str]:
     return told.at.isoformat(" ", "minutes") if told.at else told.gap or "in time", told.source
 
 
-def _points(grade: Grade) -> dict[str, float]:
+def _points(grade: StudentGrade) -> dict[str, float]:
     if not grade.result or not grade.result.verdict:
         return {}
     return {check.id: check.points for check in grade.result.verdict.checks}
 
 
-def _reason(grade: Grade) -> str:
+def _reason(grade: StudentGrade) -> str:
     """Why the final score is not the measured one, or why there is none."""
     if grade.override:
         return f"{grade.override.by}: {grade.override.reason}"
@@ -151,7 +152,7 @@ def _whole_reason(*texts: str) -> str:
     return " ".join(one_line(text) for text in texts if text)
 
 
-def _canvas(grades: Sequence[Grade], assignment: str, whole: float) -> Iterable[Line]:
+def _canvas(grades: Sequence[StudentGrade], assignment: str, whole: float) -> Iterable[Line]:
     """Only who has a score: an empty cell would take away one that somebody gave in Canvas."""
     yield (*CANVAS, assignment)
     yield ("    Points Possible", "", "", "", "", _number(whole))
@@ -162,7 +163,7 @@ def _canvas(grades: Sequence[Grade], assignment: str, whole: float) -> Iterable[
         yield (each.student.name, *own, _scaled(each, whole))
 
 
-def _moodle(grades: Sequence[Grade], whole: float) -> Iterable[Line]:
+def _moodle(grades: Sequence[StudentGrade], whole: float) -> Iterable[Line]:
     yield MOODLE
     for each in (each for each in grades if each.student):
         assert each.student
@@ -170,13 +171,13 @@ def _moodle(grades: Sequence[Grade], whole: float) -> Iterable[Line]:
         yield (*who, _scaled(each, whole), _comment(each))
 
 
-def _identifier(grade: Grade) -> str:
+def _identifier(grade: StudentGrade) -> str:
     """What Moodle calls the student in its worksheet; else their number."""
     student = grade.student
     return student.cells.get(IDENTIFIER, student.id).strip() if student else ""
 
 
-def _mark(grade: Grade) -> Mark | None:
+def _mark(grade: StudentGrade) -> Mark | None:
     """What goes into the worksheet; None where a line stays as it is."""
     if grade.student is None or grade.outcome == "missing":
         return None
@@ -185,7 +186,7 @@ def _mark(grade: Grade) -> Mark | None:
     return Mark(grade.final, _safe(_comment(grade)))
 
 
-def _comment(grade: Grade) -> str:
+def _comment(grade: StudentGrade) -> str:
     """What to mend first, in a line; the whole of it is on the student's page."""
     if grade.override or not grade.result:
         return _reason(grade)
@@ -197,7 +198,7 @@ def _comment(grade: Grade) -> str:
     return " ".join(filter(None, (grade.late_words, to_mend)))
 
 
-def _scaled(grade: Grade, whole: float) -> str:
+def _scaled(grade: StudentGrade, whole: float) -> str:
     """The score in the platform's points."""
     return "" if grade.final is None else _number(round(grade.final * whole / WHOLE, 2))
 

@@ -22,9 +22,9 @@ from roslings.experiment.run_folder import LOCK, run_folder
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.sources import files
 from roslings_class.errors import BatchError
-from roslings_class.result import Order, Result, broken
+from roslings_class.result import GradingOrder, GradingResult, broken
 from roslings_class.version import version_of
-from roslings_class.worker_pool import Ended, Limits, worker_pool
+from roslings_class.worker_pool import EndedGrading, GradingLimits, worker_pool
 
 CONNECT_WITHIN_S = 20.0
 FIT = ""
@@ -64,7 +64,7 @@ class Parcel:
     hidden: bytes | None
     version: str
     trust: bool
-    limits: Limits
+    limits: GradingLimits
 
 
 # --- on the worker -----------------------------------------------------------------------------
@@ -86,7 +86,7 @@ def fitness(lab: str, version: str, hidden: bytes | None, trust: bool) -> str:
 
 def grade_parcel(parcel: Parcel) -> tuple[str, bytes | None]:
     """Grade what is in the parcel, in a process of its own; the result as JSON, and evidence."""
-    order = Order.model_validate(parcel.order)
+    order = GradingOrder.model_validate(parcel.order)
     if reason := fitness(order.lab, parcel.version, parcel.hidden, parcel.trust):
         return broken(order, reason).model_dump_json(by_alias=True), None
     with run_folder() as scratch, worker_pool(scratch / LOCK, parcel.limits) as workers:
@@ -96,7 +96,7 @@ def grade_parcel(parcel: Parcel) -> tuple[str, bytes | None]:
                 return ended.result.model_dump_json(by_alias=True), ended.evidence
 
 
-def _at_home(order: Order, parcel: Parcel, scratch: Path) -> Order:
+def _at_home(order: GradingOrder, parcel: Parcel, scratch: Path) -> GradingOrder:
     """The order with the paths of this machine."""
     arrived = scratch / "arrived"
     arrived.mkdir()
@@ -133,27 +133,27 @@ class DaskPool:
     client: Any
     version: str
     trust: bool
-    limits: Limits
-    workers: dict[Any, tuple[Order, float]] = field(default_factory=dict)
+    limits: GradingLimits
+    workers: dict[Any, tuple[GradingOrder, float]] = field(default_factory=dict)
     """Dask's future to its order, and when it began."""
-    refused: list[Ended] = field(default_factory=list)
+    refused: list[EndedGrading] = field(default_factory=list)
 
     @property
     def soaking(self) -> int:
         """None that is known here: each has a thread of the cluster until its end."""
         return 0
 
-    def start(self, order: Order) -> None:
+    def start(self, order: GradingOrder) -> None:
         """Send one more."""
         try:
             parcel = _packed(order, self.version, self.trust, self.limits)
         except (WorkspaceError, OSError) as error:
-            self.refused.append(Ended(order, _cannot_travel(order, error), None))
+            self.refused.append(EndedGrading(order, _cannot_travel(order, error), None))
             return
         future = self.client.submit(grade_parcel, parcel, pure=False)
         self.workers[future] = order, time.monotonic()
 
-    def wait(self, most_s: float) -> Iterator[Ended]:
+    def wait(self, most_s: float) -> Iterator[EndedGrading]:
         """Those that end within `most_s`, as soon as there is one."""
         from distributed import TimeoutError, wait
 
@@ -174,7 +174,7 @@ class DaskPool:
         return max(1, sum(map(int, self.client.nthreads().values())))
 
 
-def _packed(order: Order, version: str, trust: bool, limits: Limits) -> Parcel:
+def _packed(order: GradingOrder, version: str, trust: bool, limits: GradingLimits) -> Parcel:
     path = order.path
     return Parcel(
         order.model_dump(mode="json"),
@@ -196,7 +196,7 @@ def _zipped(folder: Path) -> bytes:
     return content.getvalue()
 
 
-def _cannot_travel(order: Order, error: Exception) -> Result:
+def _cannot_travel(order: GradingOrder, error: Exception) -> GradingResult:
     words = {
         "submission": order.submission,
         "digest": order.digest,
@@ -205,20 +205,22 @@ def _cannot_travel(order: Order, error: Exception) -> Result:
         "reason": getattr(error, "problem", str(error)),
         "next_step": getattr(error, "next_step", ""),
     }
-    return Result.model_validate(words)
+    return GradingResult.model_validate(words)
 
 
-def _ended(future: Any, order: Order, seconds: float) -> Ended:
+def _ended(future: Any, order: GradingOrder, seconds: float) -> EndedGrading:
     """The worker's answer; a task that ended every worker it came to is nobody's zero."""
     if future.status != "finished":
         reason = f"No worker could grade it: {future.exception()}"
-        return Ended(order, broken(order, reason, seconds), None)
+        return EndedGrading(order, broken(order, reason, seconds), None)
     text, evidence = future.result()
-    return Ended(order, Result.model_validate_json(text), evidence)
+    return EndedGrading(order, GradingResult.model_validate_json(text), evidence)
 
 
 @contextmanager
-def dask_pool(address: str, lab: course.Lab, trust: bool, limits: Limits) -> Iterator[DaskPool]:
+def dask_pool(
+    address: str, lab: course.Lab, trust: bool, limits: GradingLimits
+) -> Iterator[DaskPool]:
     """A pool of workers on the cluster at `address`. Raises NoCluster and UnfitWorkers."""
     from distributed import Client
 

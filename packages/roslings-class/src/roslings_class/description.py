@@ -1,9 +1,9 @@
 """What a wheel says of itself on its page: the README, with pictures and links that work there.
 
 In the repository a README shows `../../site/pictures/verdict.svg`. On the page of a package index,
-and in `pip show`, there is no folder beside it. Where the students' edition can be read on the
-web, `ROSLINGS_ADDRESS` says where, and each path becomes an address; else a link leaves its words,
-and a picture goes. An instructor's own clone is never named: the solutions are in it.
+and in `pip show`, there is no folder beside it. Where the students' edition can be read on the web,
+`ROSLINGS_ADDRESS` says where, and each path becomes an address. Else a link leaves its words, and a
+picture goes. An instructor's own clone is never named: the solutions are in it.
 """
 
 from __future__ import annotations

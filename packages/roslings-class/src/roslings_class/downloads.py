@@ -13,16 +13,16 @@ from pathlib import Path
 
 from ros2_on_pip.typed_paths import from_here
 from roslings.experiment.run_folder import run_folder
-from roslings.hand_in.archives import SUFFIXES, Budget, is_clutter, unpack, zip_names
-from roslings.hand_in.errors import HostileArchive, Refused
+from roslings.hand_in.archives import SUFFIXES, UnpackBudget, is_clutter, unpack, zip_names
+from roslings.hand_in.errors import HandInRefused, HostileArchive
 from roslings.workspace.packages import LARGEST_BYTES, NAME
-from roslings.workspace.sources import Limits
+from roslings.workspace.sources import PackageLimits
 from roslings_class.errors import BatchError
 from roslings_class.platform_names import platform_name
 from roslings_class.roster import Student
 from roslings_class.submissions import Submission, find_submissions, name_of
 
-WHOLE_CLASS = Limits(bytes=20_000_000_000, files=500_000)
+WHOLE_CLASS = PackageLimits(bytes=20_000_000_000, files=500_000)
 """The instructor's own download; each submission in it has its own bounds later."""
 UNPACK_IT = "Unpack it yourself, and give the folder that comes out."
 
@@ -78,8 +78,8 @@ def _entries(folder: Path) -> list[Path]:
 
 def _unpacked(download: Path, into: Path) -> Path:
     try:
-        unpack(download, into, Budget(WHOLE_CLASS))
-    except (HostileArchive, Refused) as refusal:
+        unpack(download, into, UnpackBudget(WHOLE_CLASS))
+    except (HostileArchive, HandInRefused) as refusal:
         raise BatchError(f"{from_here(download)}: {refusal.reason}", UNPACK_IT) from refusal
     return _without_wrapper(into)
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ros2_on_pip.typed_paths import from_here
 from roslings.report.whole_file import write_whole
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.submissions import Submission
 
 FOLDER = "explain"
@@ -23,7 +23,7 @@ LIMIT_S = 900
 def explain(
     lab: str,
     submissions: Sequence[Submission],
-    latest: Mapping[str, Result],
+    latest: Mapping[str, GradingResult],
     out: Path,
     trust: bool,
     tell: Callable[[str], None],
@@ -66,12 +66,12 @@ def _file(submission: Submission, out: Path) -> Path:
     return out / FOLDER / f"{submission.name}.txt"
 
 
-def _head(submission: Submission, latest: Mapping[str, Result]) -> str:
+def _head(submission: Submission, latest: Mapping[str, GradingResult]) -> str:
     """Whose it is, and what was handed in."""
     return f"{submission.name}, by its content {latest[submission.name].digest[:12]}"
 
 
-def _is_there(submission: Submission, latest: Mapping[str, Result], out: Path) -> bool:
+def _is_there(submission: Submission, latest: Mapping[str, GradingResult], out: Path) -> bool:
     """Of just this content."""
     file = _file(submission, out)
     return file.is_file() and file.read_text("utf-8").startswith(_head(submission, latest) + "\n")

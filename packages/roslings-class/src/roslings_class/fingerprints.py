@@ -1,9 +1,9 @@
 """Fingerprints of a package's code, to find submissions that are nearly the same.
 
-Winnowing, after S. Schleimer, D. S. Wilkerson and A. Aiken, "Winnowing: Local Algorithms for
-Document Fingerprinting", SIGMOD 2003: of the hashes of all runs of K tokens, the smallest in each
-window of W hashes is kept. Whatever two texts share in W + K - 1 tokens leaves a common mark, and
-no run shorter than K tokens ever does.
+Source: S. Schleimer, D. S. Wilkerson and A. Aiken, "Winnowing: Local Algorithms for Document
+Fingerprinting", SIGMOD 2003. Of the hashes of all runs of K tokens, the smallest in each window of
+W hashes is kept. Whatever two texts share in W + K - 1 tokens leaves a common mark, and no run
+shorter than K tokens ever does.
 
 Names, numbers and texts each count as one kind of token, so that renaming hides nothing; comments
 and blank lines do not count.

@@ -30,17 +30,17 @@ from pathlib import Path
 from roslings.arena import kernel
 from roslings.experiment.run_folder import is_abandoned
 from roslings_class.preload import load_all
-from roslings_class.result import Order
+from roslings_class.result import GradingOrder
 
-Life = Callable[[Order], None]
+EntryPoint = Callable[[GradingOrder], None]
 KILLED_WITHIN_S = 5.0
 
 
 class ForkServer:
     """Forks a process for each order, and tells how each ended."""
 
-    def __init__(self, life: Life, lock: Path, patience_s: float) -> None:
-        self._life, self._lock, self._patience_s = life, lock, patience_s
+    def __init__(self, entry_point: EntryPoint, lock: Path, patience_s: float) -> None:
+        self._entry_point, self._lock, self._patience_s = entry_point, lock, patience_s
         self._living: set[int] = set()
         self._waker, self._waked = socket.socketpair()
         for end in (self._waker, self._waked):
@@ -72,11 +72,11 @@ class ForkServer:
 
     def _obey(self, words: dict[str, str]) -> None:
         if "start" in words:
-            self._start(Order.model_validate(words["start"]))
+            self._start(GradingOrder.model_validate(words["start"]))
         elif int(words["pid"]) in self._living:
             os.kill(int(words["pid"]), signal.Signals[words["signal"]])
 
-    def _start(self, order: Order) -> None:
+    def _start(self, order: GradingOrder) -> None:
         load_all(order.lab, order.hidden)
         pid = os.fork()
         if pid == 0:
@@ -84,13 +84,13 @@ class ForkServer:
         self._living.add(pid)
         _tell({"pid": pid, "started": True})
 
-    def _live(self, order: Order) -> None:
+    def _live(self, order: GradingOrder) -> None:
         """In the new process, to its end."""
         status = 1
         try:
             self._let_go(order)
             if not is_abandoned(self._lock.parent):  # the command may be gone already
-                self._life(order)
+                self._entry_point(order)
             status = 0
         except BaseException:
             traceback.print_exc()
@@ -98,7 +98,7 @@ class ForkServer:
             sys.stderr.flush()
             os._exit(status)
 
-    def _let_go(self, order: Order) -> None:
+    def _let_go(self, order: GradingOrder) -> None:
         """Hold nothing of the fork server's, hear no Ctrl-C, and end with it."""
         os.setsid()
         kernel.die_with_parent()
@@ -147,14 +147,14 @@ def _tell(event: dict[str, int]) -> None:
         os.write(1, json.dumps(event).encode() + b"\n")
 
 
-def main(life: str, lock: str, patience_s: str) -> None:
+def main(entry_point: str, lock: str, patience_s: str) -> None:
     """Import what every process needs, and begin."""
     kernel.adopt_orphans()
     # Tracing in ROS's libraries has threads that only wait. No fork has them, or needs them.
     warnings.filterwarnings("ignore", "This process .* is multi-threaded", DeprecationWarning)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGPIPE):
         signal.signal(number, signal.SIG_IGN)
-    module, _, name = life.partition(":")
+    module, _, name = entry_point.partition(":")
     function = getattr(import_module(module), name)
     ForkServer(function, Path(lock), float(patience_s)).run()
 

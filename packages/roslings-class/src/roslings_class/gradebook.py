@@ -10,8 +10,8 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 from roslings_class.errors import BadGradebook
-from roslings_class.result import Result
-from roslings_class.signing import ClassKey, Origin
+from roslings_class.result import GradingResult
+from roslings_class.signing import ClassKey, EvidenceOrigin
 
 FILE = "gradebook.sqlite"
 SCHEMA_VERSION = 2
@@ -88,7 +88,7 @@ class Gradebook:
         self._connection = connection
         self._key: ClassKey | None = None
 
-    def write(self, result: Result, evidence: bytes | None = None) -> None:
+    def write(self, result: GradingResult, evidence: bytes | None = None) -> None:
         """Put down one result, with its evidence, in one transaction. The same one twice is one.
 
         Evidence of an earlier try goes: the verdict does not come from it.
@@ -100,13 +100,13 @@ class Gradebook:
             elif result.verdict is not None:
                 connection.execute(f"DELETE {OF_ONE}", (result.submission, result.digest))
 
-    def judged_again(self, result: Result, evidence: bytes) -> None:
+    def judged_again(self, result: GradingResult, evidence: bytes) -> None:
         """Put down what came of evidence that is here already; from now on it is of this try."""
         with self._transaction() as connection:
             _put_result(connection, result)
             self._put_evidence(result, evidence)
 
-    def _put_evidence(self, result: Result, content: bytes) -> None:
+    def _put_evidence(self, result: GradingResult, content: bytes) -> None:
         key = (result.submission, result.digest, result.attempt)
         signature = self._key.sign(self._origin(*key), content) if self._key else None
         self._connection.execute(
@@ -115,13 +115,13 @@ class Gradebook:
             (*key, content, signature),
         )
 
-    def _origin(self, submission: str, digest: str, attempt: int) -> Origin:
-        return Origin(self.about("lab") or "", submission, digest, attempt)
+    def _origin(self, submission: str, digest: str, attempt: int) -> EvidenceOrigin:
+        return EvidenceOrigin(self.about("lab") or "", submission, digest, attempt)
 
-    def latest(self) -> dict[str, Result]:
+    def latest(self) -> dict[str, GradingResult]:
         """Submission to the newest result of it, by name."""
         rows = self._connection.execute("SELECT result FROM latest ORDER BY submission")
-        results = (Result.model_validate_json(text) for (text,) in rows)
+        results = (GradingResult.model_validate_json(text) for (text,) in rows)
         return {result.submission: result for result in results}
 
     def first_graded(self) -> dict[str, datetime]:
@@ -138,7 +138,7 @@ class Gradebook:
         (count,) = self._connection.execute(query, (submission, digest)).fetchone()
         return int(count)
 
-    def evidence(self, result: Result) -> bytes | None:
+    def evidence(self, result: GradingResult) -> bytes | None:
         """The packed evidence that a result was judged from.
 
         None where none was kept, and where evidence is signed and this was not measured here.
@@ -146,7 +146,7 @@ class Gradebook:
         row = self._evidence_of(result)
         return None if row is None or self.why_not(result) else row.content
 
-    def why_not(self, result: Result) -> str:
+    def why_not(self, result: GradingResult) -> str:
         """Why the evidence of a result is not what was measured here; empty where it is."""
         row = self._evidence_of(result)
         if row is None or not self.signed_by():
@@ -165,7 +165,7 @@ class Gradebook:
         judged = (result for result in self.latest().values() if result.verdict)
         return {result.submission: why for result in judged if (why := self.why_not(result))}
 
-    def _evidence_of(self, result: Result) -> _Kept | None:
+    def _evidence_of(self, result: GradingResult) -> _Kept | None:
         query = f"SELECT attempt, content, signature {OF_ONE}"
         row = self._connection.execute(query, (result.submission, result.digest)).fetchone()
         return _Kept(*row) if row else None
@@ -190,13 +190,13 @@ class Gradebook:
             connection.execute("INSERT OR REPLACE INTO about VALUES (?, ?)", (SIGNED_BY, key.name))
         return sum(signed)
 
-    def _judged_last(self) -> Iterable[Result]:
+    def _judged_last(self) -> Iterable[GradingResult]:
         """Of each content its newest verdict: from its evidence all verdicts of it came."""
         rows = self._connection.execute("SELECT result FROM results ORDER BY attempt").fetchall()
-        results = (Result.model_validate_json(text) for (text,) in rows)
+        results = (GradingResult.model_validate_json(text) for (text,) in rows)
         return {(one.submission, one.digest): one for one in results if one.verdict}.values()
 
-    def _sign(self, result: Result) -> bool:
+    def _sign(self, result: GradingResult) -> bool:
         if kept := self._evidence_of(result):
             self._put_evidence(result, kept.content)
         return kept is not None
@@ -298,7 +298,7 @@ def _insist_on_lab(book: Gradebook, lab: str, file: Path) -> None:
         raise BadGradebook(problem, "Give another folder: --out DIR")
 
 
-def _put_result(connection: sqlite3.Connection, result: Result) -> None:
+def _put_result(connection: sqlite3.Connection, result: GradingResult) -> None:
     key = (result.submission, result.digest, result.attempt)
     words = (result.word, result.score, result.model_dump_json(by_alias=True), _now())
     connection.execute(

@@ -8,10 +8,10 @@ from datetime import datetime
 
 from roslings.hand_in.newest import Natural, natural
 from roslings_class.gradebook import Gradebook, Override
-from roslings_class.handed_in import UNKNOWN, HandedIn, Times
+from roslings_class.handed_in import UNKNOWN, HandedIn, HandInTimes
 from roslings_class.late_days import LateRule
-from roslings_class.result import Result
-from roslings_class.roster import SUBMISSION, Matched, Student, match
+from roslings_class.result import GradingResult
+from roslings_class.roster import SUBMISSION, RosterMatch, Student, match
 
 UNCLEAR = "unclear"
 DIFFERS = "What counts is not the same for all of the team: see your own grade."
@@ -22,11 +22,11 @@ SAY_WHOSE = (
 
 
 @dataclass(frozen=True)
-class Grade:
+class StudentGrade:
     """All that counts for one student, or for one submission where there is no class list."""
 
     student: Student | None
-    result: Result | None
+    result: GradingResult | None
     """None where nothing was handed in."""
     override: Override | None = None
     late_days: int | None = None
@@ -101,13 +101,13 @@ class Grade:
 class Class:
     """The grades of a class, and what does not fit the class list."""
 
-    grades: list[Grade]
+    grades: list[StudentGrade]
     unknown: list[str] = field(default_factory=list)
     twice: dict[str, list[str]] = field(default_factory=dict)
     """Students with several submissions, of which the newest that was graded counts."""
 
     @property
-    def missing(self) -> list[Grade]:
+    def missing(self) -> list[StudentGrade]:
         """Who handed in nothing."""
         return [grade for grade in self.grades if grade.outcome == "missing"]
 
@@ -126,20 +126,20 @@ class Class:
         return {grade.submission: grade.team for grade in self.grades if len(grade.team) > 1}
 
     @property
-    def unclear(self) -> list[Grade]:
+    def unclear(self) -> list[StudentGrade]:
         """Submissions of which nobody can say whose they are."""
         return [grade for grade in self.grades if grade.may_be_of]
 
 
 def class_of(
     book: Gradebook,
-    times: Times | dict[str, datetime],
+    times: HandInTimes | dict[str, datetime],
     students: Sequence[Student] = (),
     rule: LateRule | None = None,
 ) -> Class:
     """Join the gradebook, the times of handing in, the class list and the rule on being late."""
     latest = book.latest()
-    times = times if isinstance(times, Times) else Times(times)
+    times = times if isinstance(times, HandInTimes) else HandInTimes(times)
     join = _Join(latest, book.overrides(), times, rule)
     if not students:
         return Class([join.grade(None, name) for name in latest])
@@ -150,30 +150,32 @@ def class_of(
 
 @dataclass(frozen=True)
 class _Join:
-    latest: dict[str, Result]
+    latest: dict[str, GradingResult]
     overrides: dict[str, Override]
-    times: Times
+    times: HandInTimes
     rule: LateRule | None
 
-    def grades(self, found: Matched) -> Iterable[Grade]:
+    def grades(self, found: RosterMatch) -> Iterable[StudentGrade]:
         for student, names in found.of_student.items():
             if names:
                 own = self.grade(student, self._newest(student, names))
                 team = tuple(_told_apart(found.teams.get(own.submission, ())))
                 yield replace(own, team=team)
             else:
-                yield Grade(student, None, may_have_sent=tuple(found.doubts(student)))
+                yield StudentGrade(student, None, may_have_sent=tuple(found.doubts(student)))
         for name in found.unknown:
             yield self.grade(None, name)
         for name, owners in found.unclear.items():
             may_be_of = tuple(_told_apart(owners))
             yield replace(self.grade(None, name), may_be_of=may_be_of)
 
-    def grade(self, student: Student | None, name: str) -> Grade:
+    def grade(self, student: Student | None, name: str) -> StudentGrade:
         handed_in = self.times.of(student, name)
         days = self._days(student, name, handed_in)
         costs = self.rule.costs(days) if self.rule and days else 0.0
-        return Grade(student, self.latest[name], self.overrides.get(name), days, costs, handed_in)
+        return StudentGrade(
+            student, self.latest[name], self.overrides.get(name), days, costs, handed_in
+        )
 
     def _days(self, student: Student | None, name: str, handed_in: HandedIn) -> int | None:
         """None where nobody tells the time; 0 where a platform says that it was in time."""

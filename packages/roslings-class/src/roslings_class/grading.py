@@ -15,36 +15,36 @@ from pydantic import BaseModel
 
 from roslings import course
 from roslings.arena import NoFreeDomain, NoFreeUser
-from roslings.checking import mistakes_told
 from roslings.course import Lab
 from roslings.evidence import Evidence, PackageSeen, read_json, thin_json
-from roslings.experiment import Choices, MeasuringFailed, measure
+from roslings.experiment import MeasuringFailed, MeasuringOptions, measure
 from roslings.experiment.soaking import SOAKING
-from roslings.hand_in.errors import Refused
+from roslings.grading.checking import mistakes_told
+from roslings.grading.saving import required_rates
+from roslings.hand_in.errors import HandInRefused
 from roslings.hand_in.unpack import in_its_own_words, package_in
 from roslings.judge.grader_mistakes import GraderBroke
 from roslings.judge.loaded import judge_for
 from roslings.report.html.intervals import watched
 from roslings.report.whole_file import write_whole
-from roslings.saving import asked_rates
 from roslings.verdict import Verdict
 from roslings.workspace.bounded import Bookmark
 from roslings.workspace.errors import MachineTrouble, WorkspaceError
 from roslings.workspace.inspect import read_bounded, read_package
 from roslings_class.fingerprints import Fingerprint, fingerprint
-from roslings_class.result import Order, Result, broken
+from roslings_class.result import GradingOrder, GradingResult, broken
 from roslings_class.unusual import unusual
 from roslings_class.version import version_of
 
 NO_FINGERPRINT = Fingerprint("", frozenset())
 
 
-class Stopped(BaseException):
+class GradingStopped(BaseException):
     """The command wants this process to end: leave every block, and end what it started."""
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasuredSubmission:
     """A verdict, the evidence for it, and the code's fingerprint."""
 
     verdict: Verdict
@@ -52,7 +52,7 @@ class Measured:
     fingerprint: Fingerprint
 
 
-def main(order: Order) -> None:
+def main(order: GradingOrder) -> None:
     """The process's whole life."""
     signal.signal(signal.SIGTERM, _stop)
     if order.course:
@@ -61,10 +61,10 @@ def main(order: Order) -> None:
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
-    raise Stopped
+    raise GradingStopped
 
 
-def answer(order: Order) -> Result:
+def answer(order: GradingOrder) -> GradingResult:
     """Grade, and put the answer into the order's room: evidence first, then the result, whole."""
     result, evidence = grade(order)
     if evidence and order.keeps_evidence:
@@ -73,7 +73,7 @@ def answer(order: Order) -> Result:
     return result
 
 
-def put(result: Result, order: Order) -> None:
+def put(result: GradingResult, order: GradingOrder) -> None:
     """The result into the order's room, where the command looks for it."""
     write_whole(order.answer, result.model_dump_json(by_alias=True).encode())
 
@@ -94,20 +94,20 @@ def unpacked(content: bytes) -> Evidence:
     return read_json(unpack(content))
 
 
-def grade(order: Order) -> tuple[Result, Evidence | None]:
+def grade(order: GradingOrder) -> tuple[GradingResult, Evidence | None]:
     """Grade one submission; what goes wrong with it is a result as well."""
     began_s = time.monotonic()
     try:
         lab = course.lab(order.lab, order.hidden)
         found = _measured(order, lab)
-    except Refused as refusal:
+    except HandInRefused as refusal:
         return _refused(order, refusal, time.monotonic() - began_s), None
     except (MeasuringFailed, MachineTrouble, NoFreeDomain, NoFreeUser) as trouble:
         return broken(order, str(trouble), time.monotonic() - began_s), None
     except GraderBroke as mistake:
         seconds = time.monotonic() - began_s
         return broken(order, str(mistake), seconds, by_the_grader=True), None
-    result = Result(
+    result = GradingResult(
         submission=order.submission,
         digest=order.digest,
         attempt=order.attempt,
@@ -125,19 +125,19 @@ def grade(order: Order) -> tuple[Result, Evidence | None]:
     return result, found.evidence
 
 
-def _measured(order: Order, lab: Lab) -> Measured:
+def _measured(order: GradingOrder, lab: Lab) -> MeasuredSubmission:
     """The way of `check`: read, measure, judge."""
     began_ns = time.monotonic_ns()
     package = package_in(order.path, lab.card.package, order.room)
     read = _read(package, lab, order)
     files = read.seen
     files.handed_in_as = order.handed_in_as
-    choices = Choices(
+    choices = MeasuringOptions(
         order.seed,
         order.clock,
         hidden=order.hidden,
         builds=order.builds,
-        builds_as_kin=order.builds_as_kin,
+        builds_from_cache=order.builds_from_cache,
         strangers=order.strangers,
         for_others=order.strangers,
         soak_s=order.soak_s,
@@ -151,7 +151,7 @@ def _measured(order: Order, lab: Lab) -> Measured:
         with mistakes_told(lab):
             evidence = measure(lab.name, package, files, choices, note)
         verdict = judge(evidence, began_ns)
-    return Measured(verdict, evidence, Fingerprint(read.whole, frozenset(read.marks)))
+    return MeasuredSubmission(verdict, evidence, Fingerprint(read.whole, frozenset(read.marks)))
 
 
 class Read(BaseModel):
@@ -162,8 +162,11 @@ class Read(BaseModel):
     marks: list[int]
 
 
-def _read(package: Path, lab: Lab, order: Order) -> Read:
-    """All that is read of it, by one child. Raises Refused, and what has to do with the disk."""
+def _read(package: Path, lab: Lab, order: GradingOrder) -> Read:
+    """All that is read of it, by one child.
+
+    Raises HandInRefused, and what has to do with the disk.
+    """
 
     def read(bookmark: Bookmark) -> str:
         seen = read_package(package, lab.card, bookmark)
@@ -190,14 +193,14 @@ def _fingerprint(package: Path, bookmark: Bookmark) -> Fingerprint:
 def rates_of(evidence: Evidence, lab: Lab) -> dict[str, float]:
     """Topic of the card to the rate that was measured, in Hz; the first experiment counts."""
     found: dict[str, float] = {}
-    for each in watched(evidence, asked_rates(lab)):
+    for each in watched(evidence, required_rates(lab)):
         if each.asked and each.rate:
             found.setdefault(each.asked.topic, round(each.rate.hz, 4))
     return found
 
 
-def _refused(order: Order, refusal: Refused, seconds: float) -> Result:
-    return Result(
+def _refused(order: GradingOrder, refusal: HandInRefused, seconds: float) -> GradingResult:
+    return GradingResult(
         submission=order.submission,
         digest=order.digest,
         attempt=order.attempt,

@@ -35,7 +35,7 @@ from roslings_class.moodle_dates import submitted_at
 from roslings_class.platform_names import CANVAS, told_by_platform
 from roslings_class.roster import SUBMISSION, Student, repository_of, squashed, told_of
 from roslings_class.submissions import TIMES, Submission
-from roslings_class.tables import MOST_BYTES, Row, read_table
+from roslings_class.tables import MOST_BYTES, TableRow, read_table
 
 GUARD = "while(1);"
 """Canvas writes it before the JSON that it gives to a browser."""
@@ -68,7 +68,7 @@ class HandedIn(BaseModel):
 UNKNOWN = HandedIn(source="")
 
 
-class Told(HandedIn):
+class ToldHandIn(HandedIn):
     """The same, of whom or of what a source says it."""
 
     submission: str = ""
@@ -77,29 +77,31 @@ class Told(HandedIn):
     """Of the student on the platform."""
 
 
-def told_at(files: Iterable[Path], zone: str) -> tuple[Told, ...]:
+def told_at(files: Iterable[Path], zone: str) -> tuple[ToldHandIn, ...]:
     """All that the files of `--times` say. Raises BadTable, NoSuchZone."""
     own = zone_named(zone)
     return tuple(told for path in files for told in _read(path, own))
 
 
-def told_by_itself(submissions: Iterable[Submission]) -> tuple[Told, ...]:
+def told_by_itself(submissions: Iterable[Submission]) -> tuple[ToldHandIn, ...]:
     """What the submissions say of themselves: their commits, and the platform's mark."""
     found = list(submissions)
     marks = _marked([each.name for each in found])
     committed = ((each.name, commit_time(each.path)) for each in found)
-    commits = (Told(submission=name, source=COMMIT, at=time) for name, time in committed if time)
+    commits = (
+        ToldHandIn(submission=name, source=COMMIT, at=time) for name, time in committed if time
+    )
     return (*marks.values(), *commits)
 
 
-def _marked(names: Sequence[str]) -> dict[str, Told]:
+def _marked(names: Sequence[str]) -> dict[str, ToldHandIn]:
     """Only where some are marked: Canvas marks nobody where an assignment has no due date."""
     told = told_by_platform(names)
     canvas = {name: each for name, each in told.items() if each.platform == CANVAS}
     if not any(each.is_late for each in canvas.values()):
         return {}
     return {
-        name: Told(submission=name, source=MARKED, is_late=each.is_late)
+        name: ToldHandIn(submission=name, source=MARKED, is_late=each.is_late)
         for name, each in canvas.items()
     }
 
@@ -107,7 +109,7 @@ def _marked(names: Sequence[str]) -> dict[str, Told]:
 # --- the files of --times ----------------------------------------------------------------------
 
 
-def _read(path: Path, zone: tzinfo | None) -> Iterator[Told]:
+def _read(path: Path, zone: tzinfo | None) -> Iterator[ToldHandIn]:
     if path.suffix.lower() == ".json":
         yield from map(_of_canvas, _submissions_in(path))
         return
@@ -137,7 +139,7 @@ def _no_list(path: Path, problem: str) -> BadTable:
     return BadTable(path, 1, f"{problem}.", f"{step}\nas it is, each page of it as one file.")
 
 
-def _of_canvas(entry: dict[str, Any]) -> Told:
+def _of_canvas(entry: dict[str, Any]) -> ToldHandIn:
     """One Submission object; who handed in nothing has no time in it."""
     at, late = entry.get("submitted_at"), entry.get("late")
     try:
@@ -146,14 +148,14 @@ def _of_canvas(entry: dict[str, Any]) -> Told:
         time = None
     number = str(entry.get("user_id") or "")
     is_late = late if isinstance(late, bool) and at else None
-    return Told(source=CANVAS_SAYS, number=number, at=time, is_late=is_late)
+    return ToldHandIn(source=CANVAS_SAYS, number=number, at=time, is_late=is_late)
 
 
-def _of_row(row: Row, zone: tzinfo | None) -> Told:
+def _of_row(row: TableRow, zone: tzinfo | None) -> ToldHandIn:
     repository = repository_of(row.cells)
     text = row.first((CLASSROOM, *TIMES))
     source = GITHUB_SAYS if CLASSROOM in row.cells else LISTED
-    return Told(
+    return ToldHandIn(
         submission=repository or row.first((SUBMISSION,)),
         who=told_of(row),
         source=source,
@@ -161,7 +163,7 @@ def _of_row(row: Row, zone: tzinfo | None) -> Told:
     )
 
 
-def _time(row: Row, text: str, zone: tzinfo | None) -> datetime | None:
+def _time(row: TableRow, text: str, zone: tzinfo | None) -> datetime | None:
     try:
         return as_time(text, zone) if text else None
     except ValueError:
@@ -173,18 +175,22 @@ def _time(row: Row, text: str, zone: tzinfo | None) -> datetime | None:
 
 
 @dataclass
-class Times:
+class HandInTimes:
     """All that is known of when submissions were handed in; the surest source counts."""
 
     listed: dict[str, datetime]
     """Submission to its time, in the CSV file of the submissions."""
     zone: str = ""
-    _by_name: defaultdict[str, list[Told]] = field(default_factory=lambda: defaultdict(list))
-    _by_person: defaultdict[str, list[Told]] = field(default_factory=lambda: defaultdict(list))
-    _by_number: defaultdict[str, list[Told]] = field(default_factory=lambda: defaultdict(list))
-    _itself: dict[str, Told] = field(default_factory=dict)
+    _by_name: defaultdict[str, list[ToldHandIn]] = field(default_factory=lambda: defaultdict(list))
+    _by_person: defaultdict[str, list[ToldHandIn]] = field(
+        default_factory=lambda: defaultdict(list)
+    )
+    _by_number: defaultdict[str, list[ToldHandIn]] = field(
+        default_factory=lambda: defaultdict(list)
+    )
+    _itself: dict[str, ToldHandIn] = field(default_factory=dict)
 
-    def add(self, told: Iterable[Told]) -> Times:
+    def add(self, told: Iterable[ToldHandIn]) -> HandInTimes:
         """What `--times` and the submissions themselves say."""
         for each in told:
             if each.source in (COMMIT, MARKED):
@@ -206,12 +212,12 @@ class Times:
         listed = self._in_class_list(student) if student else None
         return listed or self._itself.get(submission) or UNKNOWN
 
-    def _of_account(self, submission: str) -> list[Told]:
+    def _of_account(self, submission: str) -> list[ToldHandIn]:
         """By the number that Canvas writes into a file's name."""
         told = told_by_platform([submission]).get(submission)
         return self._by_number.get(told.number, []) if told and told.platform == CANVAS else []
 
-    def _of_student(self, student: Student | None) -> list[Told]:
+    def _of_student(self, student: Student | None) -> list[ToldHandIn]:
         if student is None:
             return []
         numbered = [self._by_number.get(number, []) for number in student.numbers()]

@@ -14,12 +14,12 @@ from roslings_class.canvas_list import points_of_assignments
 from roslings_class.changes import FILE, last_regrading
 from roslings_class.class_page import write_class_page
 from roslings_class.csv_files import WHOLE, write_all, write_changes
-from roslings_class.feedback import Feedback, Given
+from roslings_class.feedback import DownloadedHandIn, Feedback
 from roslings_class.fingerprints import fingerprint
 from roslings_class.folders import STUDENTS
 from roslings_class.gradebook import Gradebook
-from roslings_class.grades import SAY_WHOSE, Class, Grade, class_of
-from roslings_class.handed_in import LATE_BY_SOME, NOT_KNOWN, Times, Told
+from roslings_class.grades import SAY_WHOSE, Class, StudentGrade, class_of
+from roslings_class.handed_in import LATE_BY_SOME, NOT_KNOWN, HandInTimes, ToldHandIn
 from roslings_class.late_days import LateRule
 from roslings_class.messages import few as _few
 from roslings_class.messages import wrapped as _wrapped
@@ -39,11 +39,11 @@ class Settings(BaseModel):
     rule: LateRule | None = None
     times: dict[str, datetime] = {}
     """Submission to the time of handing in, where a list told it."""
-    told: tuple[Told, ...] = ()
+    told: tuple[ToldHandIn, ...] = ()
     """The same, from files of `--times` and from the submissions themselves."""
     hidden: Path | None = None
     """The checks that students do not have."""
-    given: dict[str, Given] = {}
+    given: dict[str, DownloadedHandIn] = {}
     """Submission to what it was called in the download."""
     assignment: str = ""
     """What Canvas calls the lab: the head of its column; empty for the lab's own title."""
@@ -62,9 +62,9 @@ class Settings(BaseModel):
             }
         )
 
-    def known_times(self) -> Times:
+    def known_times(self) -> HandInTimes:
         """When each was handed in, from all that is known."""
-        return Times(self.times, self.rule.zone if self.rule else "").add(self.told)
+        return HandInTimes(self.times, self.rule.zone if self.rule else "").add(self.told)
 
 
 def settings_of(book: Gradebook) -> Settings:
@@ -81,7 +81,7 @@ def keep(book: Gradebook, settings: Settings) -> None:
 def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
     """Write the CSV files, a page for each student and one for the class; what is to be known.
 
-    Raises BadTable where the class list cannot be read, and CannotWrite.
+    Raises BadTable where the class list cannot be read, and CannotWriteFile.
     """
     settings = settings_of(book)
     students = read_roster(settings.roster) if settings.roster else ()
@@ -140,7 +140,7 @@ TIMES_FROM = (
 )
 
 
-def _late(grades: Sequence[Grade], rule: LateRule) -> Iterator[str]:
+def _late(grades: Sequence[StudentGrade], rule: LateRule) -> Iterator[str]:
     """Whose deadline it was, who was late, and of whom nobody can tell."""
     yield rule.line()
     handed_in = [grade for grade in grades if grade.result]

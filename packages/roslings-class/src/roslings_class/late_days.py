@@ -14,7 +14,7 @@ from roslings_class.clock_times import as_time, in_zone, shown, zone_named
 from roslings_class.errors import BadTable, BatchError
 from roslings_class.moodle_dates import extended_to
 from roslings_class.roster import Student, squashed, told_of
-from roslings_class.tables import Row, read_table
+from roslings_class.tables import TableRow, read_table
 
 DAY_S = 86_400.0
 UNTIL = ("until", "deadline", "due", "extension")
@@ -77,7 +77,7 @@ def read_extensions(path: Path, zone: str) -> tuple[Extension, ...]:
     return tuple(_extension(row, zone) for row in read_table(path))
 
 
-def _extension(row: Row, zone: str) -> Extension:
+def _extension(row: TableRow, zone: str) -> Extension:
     who, text = told_of(row), row.needed(UNTIL)
     if not who:
         step = "Name the student: a column name, id, email or login, as in the class list."

@@ -10,8 +10,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from ros2_on_pip.safe_text import harmless
 from roslings.report.flow import one_line
 from roslings_class.gradebook import Gradebook
-from roslings_class.result import Result
-from roslings_class.scheduler import Standing
+from roslings_class.result import GradingResult
+from roslings_class.scheduler import BatchProgress
 
 WORDS = ("pass", "fail", "refused", "inconclusive")
 MEANINGS = {
@@ -24,7 +24,7 @@ MOST_NAMED = 10
 COLUMNS = 80
 
 
-def standing_line(standing: Standing) -> str:
+def standing_line(standing: BatchProgress) -> str:
     """How far the work is, on one line."""
     parts = [f"{standing.done} of {standing.all} graded", f"{standing.working} at work"]
     if standing.unclear:
@@ -55,7 +55,7 @@ def summary_lines(book: Gradebook, names: Sequence[str]) -> list[str]:
     return lines
 
 
-def soak_line(results: Iterable[Result]) -> str:
+def soak_line(results: Iterable[GradingResult]) -> str:
     """How long the nodes were left running, in the gradings that the gradebook holds now."""
     soaked = sorted({result.verdict.soak_s for result in results if result.verdict})
     if not any(soaked):
@@ -64,7 +64,7 @@ def soak_line(results: Iterable[Result]) -> str:
     return f"Besides, the nodes of each were left running for {seconds} s."
 
 
-def _scores(results: Sequence[Result]) -> list[str]:
+def _scores(results: Sequence[GradingResult]) -> list[str]:
     scores = [result.score for result in results if result.score is not None]
     if not scores:
         return []
@@ -72,7 +72,7 @@ def _scores(results: Sequence[Result]) -> list[str]:
     return [f"Scores: lowest {min(scores):g}, median {median:g}, highest {max(scores):g}."]
 
 
-def _named(word: str, results: Iterable[Result]) -> list[str]:
+def _named(word: str, results: Iterable[GradingResult]) -> list[str]:
     """Those that want a person's eye, with the reason."""
     found = list(results)
     if not found:
@@ -94,7 +94,7 @@ def _wrapped(text: str) -> str:
     )
 
 
-def _reason(result: Result) -> str:
+def _reason(result: GradingResult) -> str:
     if result.reason:
         return one_line(result.reason)
     checks = result.verdict.checks if result.verdict else ()

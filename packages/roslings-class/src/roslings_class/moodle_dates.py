@@ -1,8 +1,8 @@
 """The dates in Moodle's grading worksheet.
 
-What its columns hold, from mod/assign/gradingtable.php: `Last modified (submission)` is the time of
-the hand-in (`userdate`), of the team's where teams hand in, and `-` where nothing is. `Status` ends
-with `Extension granted until: DATE` where an instructor has granted one. The words are of the
+What its columns hold is from mod/assign/gradingtable.php. `Last modified (submission)` is the time
+of the hand-in (`userdate`), of the team's where teams hand in, and `-` where nothing is. `Status`
+ends with `Extension granted until: DATE` where an instructor has granted one. The words are of the
 language in which Moodle is read, and the clock is the reader's own: no zone is written. So the
 names of the months are a table, to which others can be added; what is not understood is no date.
 """

@@ -1,7 +1,7 @@
 """Capabilities that come from packages of others, as files that go into an edition.
 
-A package lies in an edition's `packages/NAME/src` as it is installed: its folder, and the record of
-its entry points beside it, by which Python finds them.
+A package lies in an edition's `packages/NAME/src` as it is installed. That is its folder, and the
+record of its entry points beside it, by which Python finds them.
 """
 
 from __future__ import annotations
@@ -20,6 +20,8 @@ from roslings.workspace.sources import files
 from roslings_launcher import constraints
 
 RECORDS = ("METADATA", "entry_points.txt")
+ENGINE = "roslings"
+"""What it offers by entry points itself goes into each edition with it."""
 _NAME = re.compile(r"[A-Za-z0-9._-]+")
 
 
@@ -28,27 +30,33 @@ class CannotBring(CourseError):
 
 
 @dataclass(frozen=True)
-class Package:
+class EditionPackage:
     """One package, and where its files go in an edition."""
 
     name: str
     files: dict[str, Path]
 
 
-def packages_of_capabilities(modules: Path) -> list[Package]:
+def packages_of_capabilities(modules: Path) -> list[EditionPackage]:
     """Those that are installed here, and are not in the course's folder `modules` already.
 
     Raises CannotBring.
     """
-    found: dict[str, Package] = {}
+    found: dict[str, EditionPackage] = {}
     for entry in entry_points(group=GROUP):
-        if entry.name not in BUILT_IN and not _folder_of(entry).is_relative_to(modules):
+        if _is_built_in(entry):
+            continue
+        if not _folder_of(entry).is_relative_to(modules):
             package = _package(entry)
             found[package.name] = package
     return [found[name] for name in sorted(found)]
 
 
-def _package(entry: EntryPoint) -> Package:
+def _is_built_in(entry: EntryPoint) -> bool:
+    return entry.name in BUILT_IN or entry.module.partition(".")[0] == ENGINE
+
+
+def _package(entry: EntryPoint) -> EditionPackage:
     distribution = entry.dist
     if distribution is None:
         raise CannotBring(f"Nothing is known of the package of the capability {entry.name!r}.")
@@ -57,7 +65,7 @@ def _package(entry: EntryPoint) -> Package:
     folder = _folder_of(entry)
     src = f"packages/{_plain(distribution.metadata['Name'])}/src"
     inside = {f"{src}/{folder.name}/{inner}": path for inner, path in files(folder).items()}
-    return Package(name, {**inside, **dict(_records(name, distribution, src))})
+    return EditionPackage(name, {**inside, **dict(_records(name, distribution, src))})
 
 
 def _folder_of(entry: EntryPoint) -> Path:

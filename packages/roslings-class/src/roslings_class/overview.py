@@ -12,7 +12,7 @@ from ros2_on_pip.typed_paths import from_here
 from roslings.course import all_labs
 from roslings_class.errors import BatchError, NoGradebook
 from roslings_class.gradebook import gradebook, lab_of
-from roslings_class.grades import UNCLEAR, Grade, class_of
+from roslings_class.grades import UNCLEAR, StudentGrade, class_of
 from roslings_class.handing_out import settings_of
 from roslings_class.roster import IDENTIFIER, Student, read_roster, squashed
 
@@ -45,7 +45,7 @@ class LabGrades:
 
     lab: str
     folder: Path
-    grades: list[Grade]
+    grades: list[StudentGrade]
     """With a class list one for each student in it, and those of nobody."""
     students: list[Student]
     graded: dict[str, datetime]
@@ -62,11 +62,11 @@ class Since:
 
 
 @dataclass
-class Standing:
+class StudentStanding:
     """Where one student stands."""
 
     student: Student
-    grades: dict[str, Grade] = field(default_factory=dict)
+    grades: dict[str, StudentGrade] = field(default_factory=dict)
     """Lab to what came of it, where anything was handed in."""
     since: Since | None = None
     """When the last of these labs was handed in."""
@@ -87,7 +87,7 @@ class Overview:
     """All that is known of a class."""
 
     books: list[LabGrades]
-    standings: list[Standing]
+    standings: list[StudentStanding]
     not_in_list: list[str]
     """Students of a lab's own list who are not in the list that was given."""
 
@@ -96,7 +96,7 @@ class Overview:
         """In the order of the course."""
         return [book.lab for book in self.books]
 
-    def in_state(self, state: str) -> list[Standing]:
+    def in_state(self, state: str) -> list[StudentStanding]:
         """Those who stand so."""
         return [each for each in self.standings if each.state(self.labs) == state]
 
@@ -122,12 +122,12 @@ def overview(folders: Sequence[Path], roster: Path | None) -> Overview:
     return Overview(books, people.standings, sorted({*not_in_list}))
 
 
-def _put(standing: Standing, grade: Grade, book: LabGrades) -> None:
+def _put(standing: StudentStanding, grade: StudentGrade, book: LabGrades) -> None:
     standing.grades[book.lab] = grade
     standing.since = _since(grade, book) or standing.since
 
 
-def _since(grade: Grade, book: LabGrades) -> Since | None:
+def _since(grade: StudentGrade, book: LabGrades) -> Since | None:
     if at := grade.handed_in.at:
         return Since(at, HANDED_IN)
     graded = book.graded.get(grade.submission)
@@ -162,16 +162,19 @@ class _People:
     """Each student once, though each lab has a list of its own.
 
     Moodle numbers the participants of each assignment anew. So a person is known by the address, by
-    the number that the school gave, or by the name; but never where two of these contradict.
+    the number that the school gave, or by the name. But a person is never known where two of these
+    contradict.
     """
 
     def __init__(self) -> None:
-        self.standings: list[Standing] = []
-        self._known: defaultdict[tuple[str, str], list[Standing]] = defaultdict(list)
+        self.standings: list[StudentStanding] = []
+        self._known: defaultdict[tuple[str, str], list[StudentStanding]] = defaultdict(list)
 
-    def join(self, students: Iterable[Student], may_add: bool = True) -> dict[Student, Standing]:
+    def join(
+        self, students: Iterable[Student], may_add: bool = True
+    ) -> dict[Student, StudentStanding]:
         """Who of these is whom; two of one list are two persons, but for two equal lines."""
-        of_list: dict[Student, Standing] = {}
+        of_list: dict[Student, StudentStanding] = {}
         for student in dict.fromkeys(students):
             person = self._find(student, [*of_list.values()])
             if person is None and may_add:
@@ -180,7 +183,7 @@ class _People:
                 of_list[student] = person
         return of_list
 
-    def _find(self, student: Student, taken: Sequence[Standing]) -> Standing | None:
+    def _find(self, student: Student, taken: Sequence[StudentStanding]) -> StudentStanding | None:
         for key in _keys(student).items():
             same = [
                 each
@@ -191,8 +194,8 @@ class _People:
                 return same[0]
         return None
 
-    def _add(self, student: Student) -> Standing:
-        standing = Standing(student)
+    def _add(self, student: Student) -> StudentStanding:
+        standing = StudentStanding(student)
         self.standings.append(standing)
         for key in _keys(student).items():
             self._known[key].append(standing)
@@ -216,7 +219,7 @@ def _differ(one: Student, other: Student) -> bool:
     return any(ours[key] != theirs[key] for key in ("email", "id") if key in ours and key in theirs)
 
 
-def score_in(grade: Grade | None) -> str:
+def score_in(grade: StudentGrade | None) -> str:
     """The score; else the outcome, and nothing where nothing was handed in."""
     if grade is None:
         return ""

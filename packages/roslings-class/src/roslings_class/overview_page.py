@@ -21,7 +21,7 @@ from roslings_class.overview import (
     LabGrades,
     Overview,
     Since,
-    Standing,
+    StudentStanding,
     score_in,
 )
 from roslings_class.sorted_table import Column, sorted_table, write_page
@@ -30,7 +30,7 @@ OVERVIEW, TABLE = "overview.html", "overview.csv"
 
 
 def write_overview(found: Overview, folder: Path) -> list[str]:
-    """Write page and table into `folder`; what the command says. Raises CannotWrite."""
+    """Write page and table into `folder`; what the command says. Raises CannotWriteFile."""
     write_page(folder / OVERVIEW, f"{len(found.labs)} labs", "All labs", _parts(found, folder))
     write_lines(folder / TABLE, _lines(found))
     return [*_told(found), f"All labs in one table: {from_here(folder / OVERVIEW)}"]
@@ -60,7 +60,7 @@ def _parts(found: Overview, folder: Path) -> Iterator[Markup]:
         yield tag("p", words, class_="about")
 
 
-def _rank(each: Standing) -> tuple[int, str]:
+def _rank(each: StudentStanding) -> tuple[int, str]:
     """Who did least comes first."""
     return len(each.grades), each.student.name
 
@@ -86,7 +86,7 @@ def _lab_line(found: Overview, book: LabGrades, folder: Path) -> Iterator[str]:
     yield f"{len(is_last)}"
 
 
-def _columns(found: Overview, folder: Path) -> Iterator[Column[Standing]]:
+def _columns(found: Overview, folder: Path) -> Iterator[Column[StudentStanding]]:
     yield Column("who", "who", lambda each: each.student.name)
     if any(each.student.id for each in found.standings):
         yield Column("id", "id", lambda each: each.student.id)
@@ -96,7 +96,7 @@ def _columns(found: Overview, folder: Path) -> Iterator[Column[Standing]]:
         yield Column(book.lab, "lab", partial(_score, book, folder), partial(_key, book.lab))
 
 
-def _score(book: LabGrades, folder: Path, each: Standing) -> str:
+def _score(book: LabGrades, folder: Path, each: StudentStanding) -> str:
     grade = each.grades.get(book.lab)
     if grade is None or not grade.submission:
         return score_in(grade)
@@ -104,7 +104,7 @@ def _score(book: LabGrades, folder: Path, each: Standing) -> str:
     return _link(page, score_in(grade), folder)
 
 
-def _key(lab: str, each: Standing) -> str:
+def _key(lab: str, each: StudentStanding) -> str:
     """A number alone sorts; a word comes where nothing stands."""
     grade = each.grades.get(lab)
     return "" if grade is None or grade.final is None else f"{grade.final:g}"
@@ -118,7 +118,7 @@ def _link(page: Path, text: str, folder: Path) -> Markup:
     return tag("a", text, href=quote(Path(address).as_posix()))
 
 
-def _day(each: Standing) -> str:
+def _day(each: StudentStanding) -> str:
     return f"{_utc(each.since)[:10]}{_only_graded(each.since)}" if each.since else ""
 
 
@@ -144,7 +144,7 @@ def _lines(found: Overview) -> Iterable[Line]:
         yield (who.name, who.id, who.email, state, *seen, count, *_cells(each, found.labs))
 
 
-def _cells(each: Standing, labs: Sequence[str]) -> Iterator[str]:
+def _cells(each: StudentStanding, labs: Sequence[str]) -> Iterator[str]:
     for lab in labs:
         grade = each.grades.get(lab)
         yield _key(lab, each)

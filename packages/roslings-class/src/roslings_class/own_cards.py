@@ -14,10 +14,10 @@ from pathlib import Path
 
 from roslings.course import Lab
 from roslings.course.contract import Plain, as_typed
-from roslings.variants import Chosen, NoVariants, Variants, variants_of
+from roslings.course.variants import LabVariant, NoVariants, Variants, variants_of
 from roslings_class.csv_files import write_lines
 from roslings_class.errors import BatchError
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.roster import GITHUB, IDENTIFIER, Student, match
 from roslings_class.teams import team_of
 
@@ -63,11 +63,11 @@ class Courses:
         """Where the lab's files say these words. Raises NoVariants."""
         if self.variants is None:
             raise NoVariants(self.lab)
-        chosen = Chosen(self.lab, self.variants, words)
+        chosen = LabVariant(self.lab, self.variants, words)
         place = self.folder / f"{self.lab.name}-{chosen.digest()}"
         return place if place.is_dir() else chosen.make(place)
 
-    def lab_of(self, result: Result) -> Lab:
+    def lab_of(self, result: GradingResult) -> Lab:
         """The lab as it was graded; everybody's where the result has no words of its own."""
         if not result.words:
             return self.lab
@@ -146,7 +146,7 @@ def in_course(lab: Lab) -> Iterator[None]:
 
 
 def write_cards(courses: Courses, students: Sequence[Student], path: Path) -> None:
-    """Write who has which words of the card, for each in the class list. Raises CannotWrite."""
+    """Write who has which words of the card, for each in the class list. Raises CannotWriteFile."""
     whose = {student: team_of(student.cells) or listed_as(student) for student in students}
     words = {student: courses.words_of(owner) for student, owner in whose.items()}
     names = list(courses.variants.words) if courses.variants else []

@@ -7,7 +7,7 @@ folder, or the start of a file's name where the instructor chose no folders. PAR
 after the name where it was late.
 
 What follows is the student's own: it may be called like another student's file. So only the start
-counts. Both platforms take lines low out of a person's name (Moodle: mod/assign/locallib.php), so
+counts. Both platforms take lines low out of a person's name (Moodle: mod/assign/locallib.php). So
 nothing that a student writes, into a profile either, looks like the start.
 """
 

@@ -19,7 +19,7 @@ from roslings_class.grading import rates_of, unpacked
 from roslings_class.handing_out import hand_out, keep, settings_of
 from roslings_class.messages import summary_lines
 from roslings_class.own_cards import courses_of, in_course
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.roster import read_roster
 from roslings_class.signed_gradebook import forged_lines, take_key
 from roslings_class.signing import BadKey
@@ -136,7 +136,7 @@ def regrade_all(folder: Path, lab_name: str, hidden: Path | None) -> Regraded:
         return Regraded([*lines, *hand_out(book, lab, folder)], forged)
 
 
-def _noted(book: Gradebook, before: Mapping[str, Result], judged: int) -> Regrading:
+def _noted(book: Gradebook, before: Mapping[str, GradingResult], judged: int) -> Regrading:
     """What was changed; kept for the page of the class, where it is anything."""
     latest = book.latest()
     found = [
@@ -151,7 +151,7 @@ def _noted(book: Gradebook, before: Mapping[str, Result], judged: int) -> Regrad
     return regrading
 
 
-def _again(book: Gradebook, result: Result, lab: Lab) -> str:
+def _again(book: Gradebook, result: GradingResult, lab: Lab) -> str:
     content = book.evidence(result)
     if result.verdict is None:
         return "refused"

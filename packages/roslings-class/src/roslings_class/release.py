@@ -1,8 +1,8 @@
 """`./roslings release --to DIR`: the students' edition, without what would give the answers away.
 
-Left out: solutions, mutants, promises (they name the mutants), what is explained of generated
-mutants, hidden checks, and all tests but those of `TESTS`, because most tests hold packages that
-would pass.
+Left out are solutions, mutants, promises (they name the mutants), what is explained of generated
+mutants, and hidden checks. All tests but those of `TESTS` are left out too, because most tests hold
+packages that would pass.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from ros2_on_pip.typed_paths import from_here
-from roslings.built_site import BROUGHT, forget, is_up_to_date, note_texts, site_here
+from roslings.commands.built_site import BROUGHT, forget, is_up_to_date, note_texts, site_here
 from roslings.course import CourseError, Lab, all_labs, root
 from roslings.course.labs import EXAMPLE, example_root
-from roslings.variants import NOT_FOR_STUDENTS
+from roslings.course.variants import NOT_FOR_STUDENTS
 from roslings.workspace.sources import files
 from roslings_class.course_files import course_files
 

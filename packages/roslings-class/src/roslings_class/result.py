@@ -16,7 +16,7 @@ State = Literal["graded", "refused", "broken"]
 """Judged; not gradable as it was handed in; the grading itself broke off (the machine's fault)."""
 
 
-class Order(BaseModel):
+class GradingOrder(BaseModel):
     """One submission to grade, once."""
 
     model_config = ConfigDict(frozen=True)
@@ -38,7 +38,7 @@ class Order(BaseModel):
     words: dict[str, Plain] = {}
     """What is the student's own in that card, by the names that `variants.yaml` has."""
     builds: Path | None = None
-    builds_as_kin: bool = False
+    builds_from_cache: bool = False
     """One of a lab's own packages: those that differ in their modules alone share a build."""
     keeps_evidence: bool = True
     soak_s: float = 0.0
@@ -53,7 +53,7 @@ class Order(BaseModel):
         What a student calls a file names whom the student likes. Nobody hands in a lab's own
         packages.
         """
-        if self.builds_as_kin:
+        if self.builds_from_cache:
             return ""
         told = platform_name(self.submission)
         return told.person if told and told.person != NOBODY else self.submission
@@ -83,7 +83,7 @@ NOT_YET = "There is no grade yet: the machine that grades could not tell. It is 
 WHO_KNOWS = "Your instructor sees why."
 
 
-class Result(BaseModel):
+class GradingResult(BaseModel):
     """What came of one grading."""
 
     model_config = ConfigDict(frozen=True)
@@ -152,10 +152,10 @@ class Result(BaseModel):
 
 
 def broken(
-    order: Order, reason: str, seconds: float = 0.0, *, by_the_grader: bool = False
-) -> Result:
+    order: GradingOrder, reason: str, seconds: float = 0.0, *, by_the_grader: bool = False
+) -> GradingResult:
     """A grading that ended without an answer: never the student's fault, never a zero."""
-    return Result(
+    return GradingResult(
         submission=order.submission,
         digest=order.digest,
         attempt=order.attempt,

@@ -15,7 +15,7 @@ from ros2_on_pip.typed_paths import from_here
 from roslings_class.errors import BadTable, BatchError
 from roslings_class.headings import CHANGED, other_language
 from roslings_class.platform_names import CANVAS, MOODLE, PlatformName, told_by_platform
-from roslings_class.tables import Row, read_table
+from roslings_class.tables import TableRow, read_table
 from roslings_class.teams import Teams, as_in_the_gradebook
 
 NAMES = ("name", "student", "full name", "student name")
@@ -138,14 +138,14 @@ def read_roster(path: Path) -> list[Student]:
     return students
 
 
-def _is_about_columns(row: Row) -> bool:
+def _is_about_columns(row: TableRow) -> bool:
     """Canvas exports up to two lines about its columns before the first student."""
     texts = [text.strip() for text in row.cells.values() if text.strip()]
     is_of_points = texts[0].lower() == "points possible"
     return is_of_points or all(map(_ABOUT_POSTING.fullmatch, texts))
 
 
-def _insist_on_columns(path: Path, rows: Sequence[Row]) -> None:
+def _insist_on_columns(path: Path, rows: Sequence[TableRow]) -> None:
     if rows and not {*NAMES, *FIRST, *LAST, *WHO} & rows[0].cells.keys():
         heads = ", ".join(map(repr, rows[0].cells))
         problem = f"no column is known that says who a student is: {harmless(heads)}."
@@ -175,7 +175,7 @@ class NobodyInTheList(BatchError):
         )
 
 
-def _student(row: Row) -> Student:
+def _student(row: TableRow) -> Student:
     name = _name_in(row)
     return Student(
         name or row.needed((*NAMES, *IDS, *EMAILS, IDENTIFIER, ROSTER_IDENTIFIER, *GITHUB)),
@@ -186,7 +186,7 @@ def _student(row: Row) -> Student:
     )
 
 
-def told_of(row: Row) -> tuple[str, ...]:
+def told_of(row: TableRow) -> tuple[str, ...]:
     """All by which a line of any list names its student."""
     own = _student(row) if row.first((*NAMES, *FIRST, *LAST, *WHO)) else None
     told = (own.name, *(row.cells.get(column, "").strip() for column in WHO)) if own else ()
@@ -198,7 +198,7 @@ def repository_of(cells: Mapping[str, str]) -> str:
     return cells.get(REPOSITORY, "").strip().rpartition("/")[2]
 
 
-def _name_in(row: Row) -> str:
+def _name_in(row: TableRow) -> str:
     """The whole name; of `Nom, Prénom` and `Nome, Sobrenome` each column holds a part of it."""
     whole, first, last = row.first(NAMES), row.first(FIRST), row.first(LAST)
     part = first or last
@@ -222,7 +222,7 @@ def _is_wide(sign: str) -> bool:
 
 
 @dataclass(frozen=True)
-class Matched:
+class RosterMatch:
     """The class list joined to the submissions."""
 
     of_student: dict[Student, list[str]]
@@ -230,8 +230,8 @@ class Matched:
     unknown: list[str]
     """Submissions of nobody in the list."""
     unclear: dict[str, list[Student]]
-    """Submissions of which nobody can say whose they are, with the students who may have sent them:
-    one student, where somebody else may be called so."""
+    """Submissions of which nobody can say whose they are, with the students who may have sent them.
+    It is one student, where somebody else may be called so."""
     teams: dict[str, list[Student]] = field(default_factory=dict)
     """Submissions of several students, who all have them."""
 
@@ -240,11 +240,11 @@ class Matched:
         return [name for name, owners in self.unclear.items() if student in owners]
 
 
-def match(students: Sequence[Student], submissions: Iterable[str]) -> Matched:
+def match(students: Sequence[Student], submissions: Iterable[str]) -> RosterMatch:
     """Find out which submission is whose; never by a guess."""
     names = list(submissions)
     claims = _Matching(students, names).claims()
-    found = Matched({student: [] for student in students}, [], {})
+    found = RosterMatch({student: [] for student in students}, [], {})
     for name, claim in claims.items():
         if not claim.owners:
             found.unknown.append(name)

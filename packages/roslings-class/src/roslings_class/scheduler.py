@@ -14,9 +14,9 @@ from roslings.course.contract import Plain
 from roslings_class.capacity import Capacity
 from roslings_class.gradebook import Gradebook
 from roslings_class.own_cards import OwnCards
-from roslings_class.result import Order, Result
+from roslings_class.result import GradingOrder, GradingResult
 from roslings_class.submissions import Submission, digest_of
-from roslings_class.worker_pool import GRADING, Ended, Limits, worker_pool
+from roslings_class.worker_pool import GRADING, EndedGrading, GradingLimits, worker_pool
 
 SEEDS = 10**9
 TURN_S = 0.5
@@ -36,8 +36,8 @@ class GradingRequest:
     soak_s: float = 0.0
     """How long the nodes are left running besides; 0: not at all."""
     strangers: bool = False
-    limits: Limits = field(default_factory=Limits)
-    life: str = GRADING
+    limits: GradingLimits = field(default_factory=GradingLimits)
+    entry_point: str = GRADING
     """What each process does: MODULE:FUNCTION."""
     cards: OwnCards | None = None
     """Each student's own card; None: everybody has the same."""
@@ -46,11 +46,11 @@ class GradingRequest:
         """What is the student's own in the card that it is graded by."""
         return self.cards.words(submission.name) if self.cards else {}
 
-    def order(self, submission: Submission, digest: str, attempt: int) -> Order:
+    def order(self, submission: Submission, digest: str, attempt: int) -> GradingOrder:
         """The order for one try of a submission."""
         room = self.scratch / "rooms" / f"{random.SystemRandom().getrandbits(64):016x}"
         seed = random.SystemRandom().randrange(SEEDS)
-        return Order.model_validate(
+        return GradingOrder.model_validate(
             {
                 "lab": self.lab,
                 "submission": submission.name,
@@ -78,7 +78,7 @@ class GradingRequest:
 
 
 @dataclass(frozen=True)
-class Standing:
+class BatchProgress:
     """How far the work is."""
 
     all: int
@@ -90,7 +90,7 @@ class Standing:
     """An estimate; None before the first one is done."""
 
 
-Watcher = Callable[[Standing], None]
+Watcher = Callable[[BatchProgress], None]
 
 
 def always() -> bool:
@@ -118,10 +118,10 @@ class Workers(Protocol):
     def soaking(self) -> int:
         """How many of them only wait."""
 
-    def start(self, order: Order) -> None:
+    def start(self, order: GradingOrder) -> None:
         """Begin one more."""
 
-    def wait(self, most_s: float) -> Iterator[Ended]:
+    def wait(self, most_s: float) -> Iterator[EndedGrading]:
         """Those that end within `most_s`."""
 
 
@@ -150,7 +150,7 @@ class Scheduler:
         self._capacity, self._watcher = capacity, watcher
         self._began_s = time.monotonic()
         self._graded = 0
-        self._standing = Standing(0, 0, 0, 0, None)
+        self._standing = BatchProgress(0, 0, 0, 0, None)
 
     def run(self, submissions: Iterable[Submission], workers: Workers | None = None) -> None:
         """Grade what the gradebook has not; what stays unclear is tried once more, alone.
@@ -171,15 +171,17 @@ class Scheduler:
             if name not in {*done, *forged} and self._was_tried(latest.get(name), known[name])
         }
         fresh = [name for name in known if name not in done | unclear]
-        self._standing = Standing(len(known), len(done), 0, len(unclear), None)
+        self._standing = BatchProgress(len(known), len(done), 0, len(unclear), None)
         todo = _Todo([known[name] for name in fresh], known, unclear)
         if workers:
             self._all(workers, todo)
             return
-        with worker_pool(self._request.lock, self._request.limits, self._request.life) as workers:
+        with worker_pool(
+            self._request.lock, self._request.limits, self._request.entry_point
+        ) as workers:
             self._all(workers, todo)
 
-    def _was_tried(self, result: Result | None, known: tuple[Submission, str]) -> bool:
+    def _was_tried(self, result: GradingResult | None, known: tuple[Submission, str]) -> bool:
         """With this content, and by the card that is the student's today."""
         submission, digest = known
         return (
@@ -188,7 +190,7 @@ class Scheduler:
             and result.words == self._request.words(submission)
         )
 
-    def _is_done(self, result: Result | None, known: tuple[Submission, str]) -> bool:
+    def _is_done(self, result: GradingResult | None, known: tuple[Submission, str]) -> bool:
         return result is not None and result.is_conclusive and self._was_tried(result, known)
 
     def _all(self, workers: Workers, todo: _Todo) -> None:
@@ -201,7 +203,7 @@ class Scheduler:
 
     def _work(
         self, workers: Workers, todo: Iterable[tuple[Submission, str]], capacity: HowMany
-    ) -> Iterator[Ended]:
+    ) -> Iterator[EndedGrading]:
         waiting = deque(todo)
         while waiting or len(workers.workers):
             if not self._still():
@@ -222,14 +224,14 @@ class Scheduler:
         working = len(workers.workers)
         return working < capacity.now(working, workers.soaking)
 
-    def _count(self, result: Result) -> None:
+    def _count(self, result: GradingResult) -> None:
         """One more is over."""
         self._graded += 1
         was = self._standing
         again = result.attempt > 1 and was.unclear > 0
         unclear = was.unclear - again + (not result.is_conclusive)
         done = was.done + result.is_conclusive
-        self._standing = Standing(was.all, done, was.working, unclear, self._left_s(done))
+        self._standing = BatchProgress(was.all, done, was.working, unclear, self._left_s(done))
 
     def _left_s(self, done: int) -> float:
         """As long for each of the rest as for those of this run."""
@@ -238,4 +240,4 @@ class Scheduler:
 
     def _tell(self, working: int) -> None:
         was = self._standing
-        self._watcher(Standing(was.all, was.done, working, was.unclear, was.left_s))
+        self._watcher(BatchProgress(was.all, was.done, working, was.unclear, was.left_s))

@@ -58,7 +58,7 @@ def take_key(book: Gradebook, folder: Path) -> list[str]:
     """Let the key of the class in `folder` sign the gradebook; what an instructor has to know.
 
     The first time it makes the key, and signs what was kept before there were keys.
-    Raises BadKey and CannotWrite.
+    Raises BadKey and CannotWriteFile.
     """
     key = read_key(folder)
     if key is None:

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ros2_on_pip.typed_paths import from_here
-from roslings.report.whole_file import CannotWrite
+from roslings.report.whole_file import CannotWriteFile
 from roslings_class.errors import BatchError
 
 FILE = "class.key"
@@ -34,7 +34,7 @@ class BadKey(BatchError):
 
 
 @dataclass(frozen=True)
-class Origin:
+class EvidenceOrigin:
     """What a piece of evidence belongs to."""
 
     lab: str
@@ -54,20 +54,20 @@ class ClassKey:
         """Tells this key from others, and nothing of its secret."""
         return hashlib.sha256(b"roslings class key\0" + self.secret).hexdigest()[:16]
 
-    def sign(self, origin: Origin, content: bytes) -> bytes:
+    def sign(self, origin: EvidenceOrigin, content: bytes) -> bytes:
         """The signature of `content` as evidence for this one try."""
         words = [FORM, origin.lab, origin.submission, origin.digest, origin.attempt]
         signed = hmac.new(self.secret, json.dumps(words).encode() + b"\0", hashlib.sha256)
         signed.update(content)
         return signed.digest()
 
-    def has_signed(self, origin: Origin, content: bytes, signature: bytes) -> bool:
+    def has_signed(self, origin: EvidenceOrigin, content: bytes, signature: bytes) -> bool:
         """Whether this very content was signed for this very try."""
         return hmac.compare_digest(self.sign(origin, content), signature)
 
 
 def make_key(folder: Path) -> ClassKey:
-    """A new key in `folder`, for its owner alone; whole or not at all. Raises CannotWrite."""
+    """A new key in `folder`, for its owner alone; whole or not at all. Raises CannotWriteFile."""
     key = ClassKey(secrets.token_bytes(BYTES))
     part = folder / f".{FILE}-{os.getpid()}.part"
     try:
@@ -77,7 +77,7 @@ def make_key(folder: Path) -> ClassKey:
             os.fsync(file.fileno())
         part.replace(folder / FILE)
     except OSError as error:
-        raise CannotWrite(folder / FILE, error) from error
+        raise CannotWriteFile(folder / FILE, error) from error
     finally:
         part.unlink(missing_ok=True)
     return key

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 
 SHARED_BY_PART, SHARED_BY_LEAST = 0.25, 5
 """A mark that more than a quarter of the class has, but at least five, counts for nobody."""
@@ -31,7 +31,7 @@ class Pair:
     """How many they share."""
 
 
-def equal_groups(results: Iterable[Result]) -> list[list[str]]:
+def equal_groups(results: Iterable[GradingResult]) -> list[list[str]]:
     """Submissions whose code is the same word for word."""
     groups: defaultdict[str, list[str]] = defaultdict(list)
     for result in results:
@@ -40,7 +40,7 @@ def equal_groups(results: Iterable[Result]) -> list[list[str]]:
     return sorted(sorted(names) for names in groups.values() if len(names) > 1)
 
 
-def alike(results: Sequence[Result], common: Iterable[int] = ()) -> list[Pair]:
+def alike(results: Sequence[GradingResult], common: Iterable[int] = ()) -> list[Pair]:
     """Pairs that are nearly the same, most alike first; `common` are the starter's own marks."""
     rare = _rare_marks(results, frozenset(common))
     sources = {result.submission: result.source for result in results}
@@ -60,13 +60,15 @@ def _pair(one: str, other: str, rare: dict[str, frozenset[int]]) -> Pair | None:
     return Pair(one, other, shared / smaller, shared)
 
 
-def _rare_marks(results: Sequence[Result], common: frozenset[int]) -> dict[str, frozenset[int]]:
+def _rare_marks(
+    results: Sequence[GradingResult], common: frozenset[int]
+) -> dict[str, frozenset[int]]:
     counts = Counter(mark for marks in _one_of_each(results) for mark in marks)
     most = max(SHARED_BY_LEAST, SHARED_BY_PART * len(results))
     many = {mark for mark, count in counts.items() if count > most} | common
     return {result.submission: frozenset(result.marks) - many for result in results}
 
 
-def _one_of_each(results: Sequence[Result]) -> Iterable[tuple[int, ...]]:
+def _one_of_each(results: Sequence[GradingResult]) -> Iterable[tuple[int, ...]]:
     """Equal code counts once, or thirty copies would make themselves common."""
     return {result.source: result.marks for result in results}.values()

@@ -67,7 +67,10 @@ def _cell(column: Column[Line], line: Line) -> Markup:
 
 
 def write_page(path: Path, over: str, title: str, parts: Iterable[Markup]) -> None:
-    """Write a page with such a table: a line over its title, and its parts. Raises CannotWrite."""
+    """Write a page with such a table: a line over its title, and its parts.
+
+    Raises CannotWriteFile.
+    """
     script = SCRIPT.read_text("utf-8")
     header = tag("header", tag("p", over, class_="over"), tag("h1", title))
     body = tag("body", brand(), header, tag("main", *parts), tag("script", Markup(script)))

@@ -8,6 +8,7 @@ from pathlib import Path
 from ros2_on_pip.markup import prose, tag
 from roslings.course import Lab
 from roslings.course.contract import as_typed
+from roslings.grading.saving import Graded
 from roslings.report.check50 import write_check50
 from roslings.report.flow import paragraphs
 from roslings.report.gradescope import write_gradescope
@@ -18,21 +19,20 @@ from roslings.report.junit import write_junit
 from roslings.report.refusal import Refusal
 from roslings.report.shown_checks import shown_checks
 from roslings.report.whole_file import write_whole
-from roslings.saving import Graded
 from roslings.verdict import Verdict
 from roslings_class.folders import PAGE, bring_over, folder_name
 from roslings_class.gradebook import Gradebook
-from roslings_class.grades import Class, Grade
+from roslings_class.grades import Class, StudentGrade
 from roslings_class.grading import unpacked
 from roslings_class.own_cards import Courses
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 
 STAMP = "made-from"
 """Holds the name of the result that a folder was made from, so that it is made once."""
 
 
 def write_pages(book: Gradebook, courses: Courses, found: Class, folder: Path) -> None:
-    """Bring the folder of each submission up to date. Raises CannotWrite."""
+    """Bring the folder of each submission up to date. Raises CannotWriteFile."""
     counts = found.counts
     for grade in one_each(found.grades):
         assert grade.result
@@ -47,17 +47,17 @@ def write_pages(book: Gradebook, courses: Courses, found: Class, folder: Path) -
         write_whole(place / STAMP, stamp.encode())
 
 
-def one_each(grades: list[Grade]) -> Iterator[Grade]:
+def one_each(grades: list[StudentGrade]) -> Iterator[StudentGrade]:
     """One of each submission: a team's grades have the same page."""
     yield from {grade.submission: grade for grade in reversed(grades) if grade.result}.values()
 
 
-def whose(grade: Grade) -> str:
+def whose(grade: StudentGrade) -> str:
     """Whose work it is, all of a team."""
     return ", ".join(grade.team) or grade.name
 
 
-def _counts(result: Result, said: str) -> Iterator[str]:
+def _counts(result: GradingResult, said: str) -> Iterator[str]:
     """What is to be known beside the verdict: by whose card, and what a person or a clock did."""
     if result.words:
         own = ", ".join(f"{name} {as_typed(value)}" for name, value in result.words.items())
@@ -71,7 +71,7 @@ def _stamp_of(place: Path) -> str:
     return stamp.read_text("utf-8") if stamp.is_file() else ""
 
 
-def _write(book: Gradebook, lab: Lab, reader: OfClass, result: Result, place: Path) -> None:
+def _write(book: Gradebook, lab: Lab, reader: OfClass, result: GradingResult, place: Path) -> None:
     verdict = result.verdict
     told = verdict or _refusal(lab, result)
     write_gradescope(told, place / "results.json")
@@ -95,7 +95,7 @@ def for_students(verdict: Verdict) -> Verdict:
     return verdict.model_copy(update={"checks": shown_checks(verdict)})
 
 
-def _refusal(lab: Lab, result: Result) -> Refusal:
+def _refusal(lab: Lab, result: GradingResult) -> Refusal:
     """For the platforms."""
     return Refusal(lab.name, *result.told_to_student, result.state == "refused")
 
@@ -106,7 +106,7 @@ def _page_of_lines(reader: OfClass, verdict: Verdict) -> str:
     return _page(reader.student, score, filter(None, (reader.counts, *lines)))
 
 
-def _page_without(reader: OfClass, result: Result) -> str:
+def _page_without(reader: OfClass, result: GradingResult) -> str:
     words = {
         "refused": "This could not be graded as it was handed in",
         "inconclusive": "No verdict yet: not everything could be told",
@@ -115,7 +115,7 @@ def _page_without(reader: OfClass, result: Result) -> str:
     return _page(reader.student, words[result.word], lines)
 
 
-def _told(result: Result) -> Iterator[str]:
+def _told(result: GradingResult) -> Iterator[str]:
     for text in result.told_to_student:
         yield from paragraphs(text)
 

@@ -16,7 +16,7 @@ from roslings.workspace.sources import sources
 from roslings_class.clock_times import as_time
 from roslings_class.errors import BadTable, NoSubmissions
 from roslings_class.platform_names import beside_a_file
-from roslings_class.tables import Row, read_table
+from roslings_class.tables import TableRow, read_table
 
 NAMES = ("submission", "student", "name", "id")
 PATHS = ("path", "file", "folder", "archive")
@@ -96,7 +96,7 @@ def _listed(table: Path, zone: tzinfo | None) -> Iterator[Submission]:
         yield Submission(harmless(name) if name else name_of(path), path, _time_in(row, zone))
 
 
-def _time_in(row: Row, zone: tzinfo | None) -> datetime | None:
+def _time_in(row: TableRow, zone: tzinfo | None) -> datetime | None:
     text = row.first(TIMES)
     if not text:
         return None

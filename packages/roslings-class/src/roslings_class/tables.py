@@ -18,7 +18,7 @@ MARK = "\ufeff"
 
 
 @dataclass(frozen=True)
-class Row:
+class TableRow:
     """One line of the table: column, in English and small letters, to text."""
 
     table: Path
@@ -37,12 +37,12 @@ class Row:
         raise BadTable(self.table, self.line, f"there is no {columns[0]} here.", step)
 
 
-def read_table(path: Path) -> list[Row]:
+def read_table(path: Path) -> list[TableRow]:
     """Every line below the head. Raises BadTable."""
     (_, head), *lines = read_cells(path).lines
     names = english(head)
     return [
-        Row(path, number, dict(zip(names, cells, strict=False)))
+        TableRow(path, number, dict(zip(names, cells, strict=False)))
         for number, cells in lines
         if any(cell.strip() for cell in cells)
     ]

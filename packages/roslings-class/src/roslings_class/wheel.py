@@ -1,9 +1,9 @@
 """Builds the wheel of roslings (PEP 517): what `pip wheel packages/roslings` calls.
 
-The wheel is made from the students' edition, in a folder of its own, so that no answer can be in
-it and nothing is left in the clone. It holds the edition's packages, so that one name is enough to
-install, the whole edition as one archive, and each dependency group as an extra with the pins of
-constraints.txt; `roslings[class]` brings what instructors have besides.
+The wheel is made from the students' edition, in a folder of its own. So no answer can be in it, and
+nothing is left in the clone. It holds the edition's packages, so that one name is enough to
+install, and the whole edition as one archive. It holds each dependency group as an extra with the
+pins of constraints.txt. `roslings[class]` brings what instructors have besides.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from roslings_class.description import address, for_its_page, urls
 from roslings_class.release import release
 from roslings_launcher import __version__, constraints, groups
 from roslings_launcher.installed import ARCHIVE
-from roslings_launcher.place import Place
+from roslings_launcher.place import CoursePlace
 from roslings_launcher.sources import OFFERS, offers, source_folders
 
 ENGINE = "roslings"
@@ -73,7 +73,7 @@ def build_sdist(sdist_directory: str, config_settings: object = None) -> NoRetur
     )
 
 
-def extras(place: Place) -> dict[str, list[str]]:
+def extras(place: CoursePlace) -> dict[str, list[str]]:
     """Each dependency group with its pins, markers and all; and what instructors have besides."""
     pinned = {
         name: constraints.of_groups(place.constraints, [name])
@@ -88,7 +88,7 @@ def lay_out(edition: Path, made: Path) -> None:
         shutil.copytree(folder, made / "src", dirs_exist_ok=True)
     describe(edition, made, address())
     (made / OFFERS).write_text(offers(edition), "utf-8")
-    (made / "setup.py").write_text(_SETUP.format(extras=extras(Place(edition))), "utf-8")
+    (made / "setup.py").write_text(_SETUP.format(extras=extras(CoursePlace(edition))), "utf-8")
     pack(edition, made / "src" / ENGINE / ARCHIVE)
 
 

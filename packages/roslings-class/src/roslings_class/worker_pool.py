@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from ros2_on_pip.errors import INCONCLUSIVE, RoslingsError
-from roslings_class.result import Order, Result, broken
+from roslings_class.result import GradingOrder, GradingResult, broken
 
 ENDS_WITHIN_S = 10.0
 NO_THREADS = {"OPENBLAS_NUM_THREADS": "1"}
@@ -25,7 +25,7 @@ GRADING = "roslings_class.grading:main"
 
 
 @dataclass(frozen=True)
-class Limits:
+class GradingLimits:
     """What one grading may take."""
 
     seconds: float = 900.0
@@ -35,11 +35,11 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Ended:
+class EndedGrading:
     """One grading that is over."""
 
-    order: Order
-    result: Result
+    order: GradingOrder
+    result: GradingResult
     evidence: bytes | None
 
 
@@ -59,7 +59,7 @@ class ForkServerGone(RoslingsError):
 class Worker:
     """One process, and its order."""
 
-    order: Order
+    order: GradingOrder
     pid: int
     began_s: float
     stopped_s: float | None = None
@@ -74,7 +74,7 @@ class Worker:
 class WorkerPool:
     """Those that grade now."""
 
-    def __init__(self, fork_server: subprocess.Popen[bytes], limits: Limits) -> None:
+    def __init__(self, fork_server: subprocess.Popen[bytes], limits: GradingLimits) -> None:
         self.workers: list[Worker] = []
         self._fork_server, self._limits = fork_server, limits
         self._unfinished = b""
@@ -84,13 +84,13 @@ class WorkerPool:
         """How many of the workers only wait until their nodes have run for long enough."""
         return sum(worker.order.soaking.exists() for worker in self.workers)
 
-    def start(self, order: Order) -> None:
+    def start(self, order: GradingOrder) -> None:
         """Begin to grade one more. Raises ForkServerGone."""
         order.room.mkdir(mode=0o700, parents=True)
         self._send({"start": order.model_dump(mode="json")})
         self.workers.append(Worker(order, 0, time.monotonic()))
 
-    def wait(self, most_s: float) -> Iterator[Ended]:
+    def wait(self, most_s: float) -> Iterator[EndedGrading]:
         """Those that end within `most_s`, as soon as there is one. Raises ForkServerGone."""
         for worker in self.workers:
             self._insist_on_limits(worker)
@@ -129,16 +129,16 @@ class WorkerPool:
             worker.stopped_s = now_s
             self._send({"signal": "SIGTERM", "pid": worker.pid})
 
-    def _ended(self, worker: Worker, status: int) -> Ended:
+    def _ended(self, worker: Worker, status: int) -> EndedGrading:
         """The answer in its room, else why there is none; the room goes."""
         order = worker.order
         try:
-            result = Result.model_validate_json(order.answer.read_bytes())
+            result = GradingResult.model_validate_json(order.answer.read_bytes())
             evidence = order.evidence.read_bytes() if order.evidence.is_file() else None
         except (OSError, ValueError):
             result, evidence = broken(order, self._why(worker, status), worker.seconds), None
         shutil.rmtree(order.room, ignore_errors=True)
-        return Ended(order, result, evidence)
+        return EndedGrading(order, result, evidence)
 
     def _why(self, worker: Worker, status: int) -> str:
         if worker.stopped_s is not None:
@@ -150,9 +150,11 @@ class WorkerPool:
 
 
 @contextmanager
-def worker_pool(lock: Path, limits: Limits, life: str = GRADING) -> Iterator[WorkerPool]:
+def worker_pool(
+    lock: Path, limits: GradingLimits, entry_point: str = GRADING
+) -> Iterator[WorkerPool]:
     """A pool that has ended when the block ends: each process, and all that it started."""
-    command = [sys.executable, "-m", "roslings_class.fork_server", life]
+    command = [sys.executable, "-m", "roslings_class.fork_server", entry_point]
     words = [str(lock), str(limits.ending_s)]
     with subprocess.Popen(
         [*command, *words],

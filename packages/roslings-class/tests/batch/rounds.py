@@ -17,12 +17,12 @@ from packed import make_zip, zip_bytes
 from test_batch_export import TOPICS, graded
 
 from roslings_class.clock_times import as_time, zone_named, zone_of
-from roslings_class.command import Choices, settings_for
+from roslings_class.command import GradeOptions, settings_for
 from roslings_class.downloads import submissions_at
 from roslings_class.gradebook import gradebook
 from roslings_class.handing_out import hand_out, keep
 from roslings_class.late_days import LateRule
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.roster import read_roster
 
 FILES = "_assignsubmission_file"
@@ -63,7 +63,8 @@ class Round:
 
 
 def played(
-    choices: Choices, result_of: Callable[[str], Result] = lambda name: graded(name, "figure")
+    choices: GradeOptions,
+    result_of: Callable[[str], GradingResult] = lambda name: graded(name, "figure"),
 ) -> Round:
     """Everything that `grade` does, but for the measuring."""
     choices.out.mkdir(exist_ok=True)

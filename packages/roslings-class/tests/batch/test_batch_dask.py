@@ -16,10 +16,10 @@ from pathlib import Path
 import pytest
 
 from roslings.course import lab
-from roslings_class.command import Choices, grade
+from roslings_class.command import GradeOptions, grade
 from roslings_class.dask_pool import NoCluster, UnfitWorkers
 from roslings_class.gradebook import gradebook
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.signed_gradebook import take_key
 from skips import imported
 
@@ -118,9 +118,9 @@ def handed_in(folder: Path) -> Path:
     return folder
 
 
-def graded(folder: Path, address: str, out: Path) -> dict[str, Result]:
+def graded(folder: Path, address: str, out: Path) -> dict[str, GradingResult]:
     """Grade on the cluster."""
-    grade(Choices("topics", folder, out, trust=True, dask=address, keeps_evidence=False))
+    grade(GradeOptions("topics", folder, out, trust=True, dask=address, keeps_evidence=False))
     with gradebook(out, "topics") as book:
         return book.latest()
 

@@ -11,7 +11,7 @@ import pytest
 from packed import PACKAGE, make_zip, windows_zip, zip_bytes, zip_with_link
 
 from roslings.hand_in.archives import unpack
-from roslings.hand_in.errors import HostileArchive, Refused
+from roslings.hand_in.errors import HandInRefused, HostileArchive
 from roslings.hand_in.newest import natural, newest_first
 from roslings.hand_in.unpack import package_in
 from roslings_class.downloads import is_download, submissions_at
@@ -127,7 +127,9 @@ def test_a_zip_in_a_zip_is_opened(tmp_path: Path, depth: int, opens: bool) -> No
     if opens:
         assert package_in(file, "chatter", tmp_path).name == "chatter"
         return
-    with pytest.raises(Refused, match=r"topics\.zip lies in a zip in a zip in a zip") as refusal:
+    with pytest.raises(
+        HandInRefused, match=r"topics\.zip lies in a zip in a zip in a zip"
+    ) as refusal:
         package_in(file, "chatter", tmp_path)
     assert str(tmp_path) not in str(refusal.value)
 
@@ -162,7 +164,7 @@ def test_many_small_bombs_are_one(tmp_path: Path) -> None:
     """The bound is on all zips of a submission together."""
     bomb = zip_bytes([("a", bytes(70_000_000))])
     file = make_zip(tmp_path / "it.zip", [(f"{n}.zip", bomb) for n in range(10)])
-    with pytest.raises(Refused):
+    with pytest.raises(HandInRefused):
         package_in(file, "chatter", tmp_path)
     written = sum(each.stat().st_size for each in tmp_path.rglob("*") if each.is_file())
     assert written < 201_000_000
@@ -173,7 +175,7 @@ def test_a_link_to_anothers_zip_is_not_followed(tmp_path: Path) -> None:
     make_zip(tmp_path / "anna.zip")
     (tmp_path / "ben").mkdir()
     (tmp_path / "ben/topics.zip").symlink_to(tmp_path / "anna.zip")
-    with pytest.raises(Refused):
+    with pytest.raises(HandInRefused):
         package_in(tmp_path / "ben", "chatter", tmp_path)
 
 

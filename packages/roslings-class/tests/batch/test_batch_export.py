@@ -23,7 +23,7 @@ from roslings_class.grades import LateRule, class_of
 from roslings_class.handing_out import Settings, hand_out, keep
 from roslings_class.messages import summary_lines
 from roslings_class.regrade import override
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.roster import Student, match, read_roster
 from roslings_class.similar import alike, equal_groups
 from roslings_launcher.cli import main
@@ -64,7 +64,7 @@ def verdict(*failed: str) -> Verdict:
     )
 
 
-def graded(name: str, *failed: str, hz: float = 2.0, **more: object) -> Result:
+def graded(name: str, *failed: str, hz: float = 2.0, **more: object) -> GradingResult:
     """A result with a verdict."""
     words = {
         "submission": name,
@@ -75,12 +75,12 @@ def graded(name: str, *failed: str, hz: float = 2.0, **more: object) -> Result:
         "rates": {"/chatter": hz},
         **more,
     }
-    return Result.model_validate(words)
+    return GradingResult.model_validate(words)
 
 
-def refused(name: str, reason: str) -> Result:
+def refused(name: str, reason: str) -> GradingResult:
     """A result without one."""
-    return Result(submission=name, digest="d", attempt=1, state="refused", reason=reason)
+    return GradingResult(submission=name, digest="d", attempt=1, state="refused", reason=reason)
 
 
 def cells(path: Path) -> list[dict[str, str]]:
@@ -494,7 +494,7 @@ def test_a_folder_of_before_is_brought_over(tmp_path: Path) -> None:
 # --- who is alike ------------------------------------------------------------------------------
 
 
-def code(folder: Path, text: str) -> Result:
+def code(folder: Path, text: str) -> GradingResult:
     """A submission with this code."""
     (folder / "chatter").mkdir(parents=True)
     (folder / "chatter" / "talker.py").write_text(text, "utf-8")
@@ -554,7 +554,7 @@ def test_a_student_reads_no_path_of_the_machine_that_grades(tmp_path: Path) -> N
         keep(book, Settings(roster=tmp_path / "class.csv"))
         step = f"Look at this one yourself: ./roslings check {place}"
         book.write(
-            Result(
+            GradingResult(
                 submission="anna",
                 digest="d",
                 attempt=1,

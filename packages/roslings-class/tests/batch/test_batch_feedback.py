@@ -24,13 +24,13 @@ from test_batch_teams import of_canvas, of_classroom, of_moodle, verdicts
 
 from roslings import course
 from roslings.verdict import CheckResult
-from roslings_class.command import Choices
+from roslings_class.command import GradeOptions
 from roslings_class.feedback import CANVAS_ZIP, COMMENTS, LONGEST_COMMENT, MOODLE_ZIP
 from roslings_class.folders import folder_name
 from roslings_class.gradebook import gradebook
 from roslings_class.handing_out import hand_out
 from roslings_class.regrade import override
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 
 PAGE = "roslings-topics.html"
 
@@ -121,7 +121,7 @@ def moodle_round(folder: Path, form: str = AS_DOWNLOADED["folders"]) -> Round:
         "Zoë": refused("", "broke off in /home/me").model_copy(update={"state": "broken"}),
     }
 
-    def result_of(name: str) -> Result:
+    def result_of(name: str) -> GradingResult:
         found = next((each for who, each in results.items() if who in name), graded(name, "figure"))
         return found.model_copy(update={"submission": name})
 
@@ -131,7 +131,9 @@ def moodle_round(folder: Path, form: str = AS_DOWNLOADED["folders"]) -> Round:
     )
     times = {**TIMES, "Anna Berg": "Tuesday, 1 December 2026, 1:00 PM"}
     list_ = worksheet(folder, [line(name, time) for name, time in times.items()])
-    return played(Choices("topics", zip_, folder / "out", roster=list_, rule=rule()), result_of)
+    return played(
+        GradeOptions("topics", zip_, folder / "out", roster=list_, rule=rule()), result_of
+    )
 
 
 @pytest.mark.parametrize("form", AS_DOWNLOADED.values(), ids=AS_DOWNLOADED)
@@ -189,7 +191,7 @@ def test_what_a_team_gets_may_differ(tmp_path: Path) -> None:
     """One member has more time: the page that they share says where to look."""
     choices = of_moodle(tmp_path)
     (tmp_path / "more.csv").write_text("name,until\nBen Kaya,2026-12-24 08:00\n")
-    done = played(Choices(**{**vars(choices), "extensions": tmp_path / "more.csv"}), verdicts)
+    done = played(GradeOptions(**{**vars(choices), "extensions": tmp_path / "more.csv"}), verdicts)
     with zipfile.ZipFile(done.out / MOODLE_ZIP) as archive:
         page = words_of(archive.read(f"Ben Kaya_102{FILES}/{PAGE}").decode())
     assert "What counts is not the same for all of the team" in page
@@ -200,7 +202,7 @@ def test_without_numbers_a_team_gets_nothing_and_it_is_said(tmp_path: Path) -> N
     """Else Moodle would give the page to somebody else."""
     (tmp_path / "class.csv").write_text("name,team\nAnna Berg,Rot\nBen Kaya,Rot\n")
     zip_ = make_zip(tmp_path / "moodle.zip", [(f"Rot_101{FILES}/t.zip", zip_bytes())])
-    done = played(Choices("topics", zip_, tmp_path / "out", roster=tmp_path / "class.csv"))
+    done = played(GradeOptions("topics", zip_, tmp_path / "out", roster=tmp_path / "class.csv"))
     assert not (done.out / MOODLE_ZIP).exists()
     assert "No page for who has no number: Anna Berg, Ben Kaya." in done.told
 
@@ -210,7 +212,7 @@ def test_of_nobody_and_of_whom_it_is_unclear_nothing_goes_back(tmp_path: Path) -
     list_ = worksheet(tmp_path, [line("Anna Berg", "-")])
     names = [f"Anna Berg_101{FILES}", f"Anna Berg_222{FILES}", f"Mallory_333{FILES}"]
     zip_ = make_zip(tmp_path / "moodle.zip", [(f"{name}/t.zip", zip_bytes()) for name in names])
-    done = played(Choices("topics", zip_, tmp_path / "out", roster=list_))
+    done = played(GradeOptions("topics", zip_, tmp_path / "out", roster=list_))
     with zipfile.ZipFile(done.out / MOODLE_ZIP) as archive:
         assert archive.namelist() == [f"{names[0]}/{PAGE}"]
 
@@ -219,7 +221,7 @@ def test_without_a_class_list_each_of_ones_hand_ins_has_a_page(tmp_path: Path) -
     """Nobody says which counts."""
     names = [f"Anna Berg_101{FILES}_{own}.zip" for own in ("a", "b")]
     zip_ = make_zip(tmp_path / "moodle.zip", [(name, zip_bytes()) for name in names])
-    done = played(Choices("topics", zip_, tmp_path / "out"))
+    done = played(GradeOptions("topics", zip_, tmp_path / "out"))
     found = imported_by_moodle((done.out / MOODLE_ZIP).read_bytes(), NUMBERS)
     assert len(found["Anna Berg"]) == 2
 
@@ -253,7 +255,7 @@ def test_canvas_takes_every_page(tmp_path: Path, own: str) -> None:
     (tmp_path / "canvas-list.csv").write_text(CANVAS_LIST, "utf-8")
     names = [f"berganna_77_8812_{own}", f"müllerzoë_LATE_79_8814_{own}"]
     done = played(
-        Choices(
+        GradeOptions(
             "topics",
             canvas_zip(tmp_path, names),
             tmp_path / "out",
@@ -322,13 +324,13 @@ def test_a_comment_calls_nobody_and_has_an_end(tmp_path: Path) -> None:
     )
     clone(tmp_path / "clones/lab-topics-anna")
 
-    def result_of(name: str) -> Result:
+    def result_of(name: str) -> GradingResult:
         found = graded(name)
         assert found.verdict
         verdict = found.verdict.model_copy(update={"checks": (check,), "outcome": "fail"})
         return found.model_copy(update={"verdict": verdict})
 
-    done = played(Choices("topics", tmp_path / "clones", tmp_path / "out"), result_of)
+    done = played(GradeOptions("topics", tmp_path / "clones", tmp_path / "out"), result_of)
     text = (done.out / COMMENTS / "lab-topics-anna.md").read_text("utf-8")
     assert len(text) < LONGEST_COMMENT + 100
     assert not re.search(r"@\w|^# |<b>", text, re.MULTILINE)
@@ -337,7 +339,7 @@ def test_a_comment_calls_nobody_and_has_an_end(tmp_path: Path) -> None:
 def test_a_folder_that_is_no_clone_gets_none(tmp_path: Path) -> None:
     """Where there is no repository, nobody reads a comment."""
     (tmp_path / "in/anna").mkdir(parents=True)
-    done = played(Choices("topics", tmp_path / "in", tmp_path / "out"))
+    done = played(GradeOptions("topics", tmp_path / "in", tmp_path / "out"))
     assert not (done.out / COMMENTS).exists()
 
 
@@ -346,7 +348,7 @@ def test_a_name_that_is_no_text_ends_nothing(tmp_path: Path) -> None:
     for name in (b"kayaben_77_8812_t\xf6pics.zip", b"berganna_78_8813_\x1b[2K.zip"):
         (tmp_path / "in").mkdir(exist_ok=True)
         Path(os.fsdecode(os.fsencode(tmp_path / "in") + b"/" + name)).write_bytes(zip_bytes())
-    done = played(Choices("topics", tmp_path / "in", tmp_path / "out", rule=rule()))
+    done = played(GradeOptions("topics", tmp_path / "in", tmp_path / "out", rule=rule()))
     with zipfile.ZipFile(done.out / CANVAS_ZIP) as archive:
         assert [name.partition("_t")[0] for name in archive.namelist()][1] == "kayaben_77_8812"
         assert all(name.isprintable() for name in archive.namelist())
@@ -367,7 +369,7 @@ def test_hidden_checks_stay_hidden(tmp_path: Path) -> None:
         hidden=True,
     )
 
-    def result_of(name: str) -> Result:
+    def result_of(name: str) -> GradingResult:
         found = graded(name, "figure")
         assert found.verdict
         checks = (*found.verdict.checks, secret)
@@ -376,7 +378,7 @@ def test_hidden_checks_stay_hidden(tmp_path: Path) -> None:
 
     zip_ = make_zip(tmp_path / "moodle.zip", [(f"Anna Berg_101{FILES}/t.zip", zip_bytes())])
     list_ = worksheet(tmp_path, [line("Anna Berg", "-")])
-    done = played(Choices("topics", zip_, tmp_path / "out", roster=list_), result_of)
+    done = played(GradeOptions("topics", zip_, tmp_path / "out", roster=list_), result_of)
     found = imported_by_moodle((done.out / MOODLE_ZIP).read_bytes(), NUMBERS)
     told = (found["Anna Berg"][PAGE], (done.out / "moodle.csv").read_text("utf-8"))
     for text in told:

@@ -12,7 +12,7 @@ from roslings_class.errors import BadGradebook, BatchError
 from roslings_class.forgetting import forget
 from roslings_class.gradebook import gradebook
 from roslings_class.handing_out import Settings, hand_out, keep, settings_of
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 
 ANNA, BEN = "anna_quimby_4711", "ben_osterwald_4712"
 WHAT_ANNA_SAID = b"what anna's nodes said " * 5000
@@ -25,7 +25,7 @@ def grades(tmp_path: Path) -> Path:
         for name, evidence in ((ANNA, WHAT_ANNA_SAID), (BEN, b"ben's")):
             reason = f"{name} has no package"
             for attempt in (1, 2):
-                result = Result(
+                result = GradingResult(
                     submission=name, digest="d", attempt=attempt, state="refused", reason=reason
                 )
                 book.write(result, evidence)

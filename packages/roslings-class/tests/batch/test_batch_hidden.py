@@ -10,9 +10,9 @@ import pytest
 from roslings.course import lab
 from roslings.course.files import BadCourseFile
 from roslings.evidence import BuildSeen, Evidence, MachineSeen
+from roslings.grading.platforms import write_shapes
+from roslings.grading.shapes import SHAPES
 from roslings.judge import judge
-from roslings.platforms import write_shapes
-from roslings.shapes import SHAPES
 from roslings.workspace.inspect import inspect_package
 
 TOPICS = lab("topics")

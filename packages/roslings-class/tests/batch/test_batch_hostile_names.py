@@ -18,7 +18,7 @@ from roslings_class.gradebook import gradebook
 from roslings_class.handing_out import Settings, hand_out, keep
 from roslings_class.platform_names import platform_name
 from roslings_class.regrade import override
-from roslings_class.result import Order, Result
+from roslings_class.result import GradingOrder, GradingResult
 from roslings_class.roster import Student, match, read_roster
 
 FILES = "_assignsubmission_file"
@@ -266,7 +266,7 @@ def handed_out(folder: Path, list_: str) -> tuple[str, dict[str, dict[str, str]]
         keep(book, Settings(roster=folder / "class.csv"))
         for name in STOLEN:
             words = {"submission": name, "digest": "d", "attempt": 1, "state": "refused"}
-            book.write(Result.model_validate(words))
+            book.write(GradingResult.model_validate(words))
         told = "\n".join(hand_out(book, lab("topics"), folder))
     with (folder / "grades.csv").open(encoding="utf-8", newline="") as file:
         rows = {row["name"]: row for row in csv.DictReader(file)}
@@ -321,7 +321,7 @@ def test_a_diagnosis_is_held_against_the_platforms_part(tmp_path: Path) -> None:
         "Lovelace_Ada_17": "Lovelace_Ada_17",
     }
     for name, person in asked.items():
-        order = Order.model_validate({**words, "submission": name})
+        order = GradingOrder.model_validate({**words, "submission": name})
         assert order.handed_in_as == person
 
 

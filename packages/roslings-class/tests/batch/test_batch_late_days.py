@@ -16,7 +16,7 @@ from rounds import BERLIN, CLASS, FILES, canvas_zip, clone, moodle_zip, played, 
 
 from roslings import course
 from roslings_class.clock_times import NoSuchZone, as_time, zone_of
-from roslings_class.command import Choices, NoDeadline
+from roslings_class.command import GradeOptions, NoDeadline
 from roslings_class.commit_times import commit_time
 from roslings_class.errors import BadTable
 from roslings_class.gradebook import gradebook
@@ -66,7 +66,7 @@ TIMES = {
 def test_a_worksheet_tells_the_times(tmp_path: Path, download: Path) -> None:
     """From the download to Moodle's own file: points go, the student reads why; a gap is told."""
     list_ = worksheet(tmp_path, [line(name, time) for name, time in TIMES.items()])
-    done = played(Choices("topics", download, tmp_path / "out", roster=list_, rule=rule()))
+    done = played(GradeOptions("topics", download, tmp_path / "out", roster=list_, rule=rule()))
     assert done.late() == {"Anna Berg": "0", "Ben Kaya": "1", "Zoë Müller": "3", "Finn O'Neill": ""}
     ben, finn = done.rows()["Ben Kaya"], done.rows()["Finn O'Neill"]
     assert (ben["handed in"], ben["told by"]) == ("2026-12-01 00:01+01:00", "Moodle's worksheet")
@@ -87,7 +87,7 @@ def test_free_days_cost_nothing_and_say_nothing(tmp_path: Path, download: Path) 
     """The student reads only what cost points."""
     list_ = worksheet(tmp_path, [line(name, time) for name, time in TIMES.items()])
     free = rule(free_days=1)
-    done = played(Choices("topics", download, tmp_path / "out", roster=list_, rule=free))
+    done = played(GradeOptions("topics", download, tmp_path / "out", roster=list_, rule=free))
     back = done.rows("moodle.csv", "Full name")
     assert "late" not in back["Ben Kaya"]["Feedback comments"]
     assert "3 days late: 20 points less" in back["Zoë Müller"]["Feedback comments"]
@@ -104,7 +104,7 @@ def test_an_extension_in_the_worksheet_counts(tmp_path: Path, download: Path) ->
         for name, time in TIMES.items()
     ]
     list_ = worksheet(tmp_path, lines)
-    done = played(Choices("topics", download, tmp_path / "out", roster=list_, rule=rule()))
+    done = played(GradeOptions("topics", download, tmp_path / "out", roster=list_, rule=rule()))
     assert done.late()["Zoë Müller"] == "1"
     assert done.late()["Ben Kaya"] == "1"
 
@@ -146,7 +146,7 @@ def test_the_worksheets_clock_is_that_of_the_deadline(tmp_path: Path, download: 
         deadline = rule("2026-11-30T23:59+01:00").deadline
         there = LateRule(deadline=deadline, zone=zone)
         out = tmp_path / zone.replace("/", "-")
-        done = played(Choices("topics", download, out, roster=list_, rule=there))
+        done = played(GradeOptions("topics", download, out, roster=list_, rule=there))
         assert done.late()["Ben Kaya"] == days
 
 
@@ -185,7 +185,9 @@ def test_canvas_marks_who_is_late(tmp_path: Path) -> None:
     (tmp_path / "canvas-list.csv").write_text(CANVAS_LIST, "utf-8")
     zip_ = canvas_zip(tmp_path, CANVAS_FILES)
     done = played(
-        Choices("topics", zip_, tmp_path / "out", roster=tmp_path / "canvas-list.csv", rule=rule())
+        GradeOptions(
+            "topics", zip_, tmp_path / "out", roster=tmp_path / "canvas-list.csv", rule=rule()
+        )
     )
     assert done.late() == {"Berg, Anna": "0", "Kaya, Ben": "", "Müller, Zoë": ""}
     rows = done.rows()
@@ -203,7 +205,9 @@ def test_without_a_due_date_canvas_marks_nobody(tmp_path: Path) -> None:
     (tmp_path / "canvas-list.csv").write_text(CANVAS_LIST, "utf-8")
     zip_ = canvas_zip(tmp_path, [CANVAS_FILES[0], "kayaben_78_8813_topics.zip"])
     done = played(
-        Choices("topics", zip_, tmp_path / "out", roster=tmp_path / "canvas-list.csv", rule=rule())
+        GradeOptions(
+            "topics", zip_, tmp_path / "out", roster=tmp_path / "canvas-list.csv", rule=rule()
+        )
     )
     assert done.late() == {"Berg, Anna": "", "Kaya, Ben": "", "Müller, Zoë": ""}
 
@@ -219,7 +223,7 @@ def test_canvass_own_list_tells_by_how_much(tmp_path: Path, guard: str) -> None:
         files[-1].write_text(guard + json.dumps(page), "utf-8")
     zip_ = canvas_zip(tmp_path, CANVAS_FILES)
     done = played(
-        Choices(
+        GradeOptions(
             "topics",
             zip_,
             tmp_path / "out",
@@ -264,7 +268,7 @@ def test_a_clones_newest_commit_tells_the_time(tmp_path: Path, clones: Path) -> 
     """And that the student's own computer says so."""
     (tmp_path / "class.csv").write_text(GITHUB_LIST)
     done = played(
-        Choices("topics", clones, tmp_path / "out", roster=tmp_path / "class.csv", rule=rule())
+        GradeOptions("topics", clones, tmp_path / "out", roster=tmp_path / "class.csv", rule=rule())
     )
     assert done.late() == {"Anna Berg": "0", "Ben Kaya": "1"}
     assert done.rows()["Ben Kaya"]["told by"] == "its newest commit"
@@ -277,7 +281,7 @@ def test_classrooms_grades_stand_before_a_commit(tmp_path: Path, clones: Path, w
     (tmp_path / "class.csv").write_text(GITHUB_LIST)
     is_list = way == "as the class list"
     done = played(
-        Choices(
+        GradeOptions(
             "topics",
             clones,
             tmp_path / "out",
@@ -351,7 +355,7 @@ def test_a_list_tells_the_times(tmp_path: Path, download: Path) -> None:
         "name,id,submitted\nAnna Berg,s1,2026-12-01 08:00\n,s2,2026-11-29T10:00Z\nZoe Mueller,,\n"
     )
     done = played(
-        Choices(
+        GradeOptions(
             "topics",
             download,
             tmp_path / "out",
@@ -374,7 +378,7 @@ def test_two_of_one_name_keep_their_own_times(tmp_path: Path) -> None:
     )
     (tmp_path / "more.csv").write_text("name,id,until\nKim Lee,kim2,2026-12-05 08:00\n")
     done = played(
-        Choices(
+        GradeOptions(
             "topics",
             tmp_path / "in",
             tmp_path / "out",
@@ -394,7 +398,7 @@ def test_a_csv_file_of_submissions_stands_before_all(tmp_path: Path, clones: Pat
         f"lab-topics-annaberg,{clones / 'lab-topics-annaberg'},2026-12-03 12:00\n"
         f"lab-topics-bkaya,{clones / 'lab-topics-bkaya'},\n"
     )
-    done = played(Choices("topics", tmp_path / "in.csv", tmp_path / "out", rule=rule()))
+    done = played(GradeOptions("topics", tmp_path / "in.csv", tmp_path / "out", rule=rule()))
     assert done.late() == {"lab-topics-annaberg": "3", "lab-topics-bkaya": "1"}
     anna = done.rows()["lab-topics-annaberg"]
     assert anna["handed in"] == "2026-12-03 12:00+01:00"
@@ -408,7 +412,7 @@ def test_who_has_more_time(tmp_path: Path, download: Path) -> None:
     (tmp_path / "more.csv").write_text("email,student,until\n,Ben Kaya,2026-12-02 12:00\n")
     out = tmp_path / "out"
     done = played(
-        Choices(
+        GradeOptions(
             "topics", download, out, roster=list_, rule=rule(), extensions=tmp_path / "more.csv"
         )
     )
@@ -421,7 +425,7 @@ def test_a_score_by_hand_is_not_changed_by_late_days(tmp_path: Path, download: P
     """And the student reads the person's words alone."""
     list_ = worksheet(tmp_path, [line("Zoë Müller", TIMES["Zoë Müller"])])
     out = tmp_path / "out"
-    done = played(Choices("topics", download, out, roster=list_, rule=rule()))
+    done = played(GradeOptions("topics", download, out, roster=list_, rule=rule()))
     override(out, "Zoë Müller", 90, "showed it", "tutor")
     back = done.rows("moodle.csv", "Full name")["Zoë Müller"]
     assert (back["Grade"], back["Feedback comments"]) == ("90.00", "tutor: showed it")
@@ -482,7 +486,7 @@ def test_a_bad_list_is_told_before_anything_is_run(
         (tmp_path / name).write_text(text)
     times = () if name == "more.csv" else (tmp_path / name,)
     more = tmp_path / name if name == "more.csv" else None
-    choices = Choices(
+    choices = GradeOptions(
         "topics",
         download,
         tmp_path / "out",
@@ -500,12 +504,12 @@ def test_extensions_need_a_deadline(tmp_path: Path, download: Path) -> None:
     """Of what would they be one?"""
     (tmp_path / "more.csv").write_text("name,until\nAnna Berg,2026-12-01\n")
     with pytest.raises(NoDeadline, match="--deadline"):
-        played(Choices("topics", download, tmp_path / "out", extensions=tmp_path / "more.csv"))
+        played(GradeOptions("topics", download, tmp_path / "out", extensions=tmp_path / "more.csv"))
 
 
 def test_without_a_deadline_nothing_is_said_of_late_days(tmp_path: Path, clones: Path) -> None:
     """The times are in grades.csv all the same."""
-    done = played(Choices("topics", clones, tmp_path / "out"))
+    done = played(GradeOptions("topics", clones, tmp_path / "out"))
     assert "late" not in done.told.lower().replace("late days", "")
     assert done.rows()["lab-topics-bkaya"]["handed in"] == "2026-12-01 20:00+00:00"
 
@@ -521,7 +525,7 @@ def test_canvass_list_may_hold_what_nobody_expects(tmp_path: Path) -> None:
     ]
     (tmp_path / "odd.json").write_text(json.dumps(odd))
     done = played(
-        Choices(
+        GradeOptions(
             "topics",
             canvas_zip(tmp_path, CANVAS_FILES),
             tmp_path / "out",

@@ -12,7 +12,7 @@ from test_batch_export import TOPICS, cells, graded, refused
 from roslings_class.gradebook import gradebook
 from roslings_class.handing_out import Settings, hand_out, keep
 from roslings_class.overview import overview
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.roster import Student
 from roslings_launcher.cli import main
 
@@ -22,7 +22,7 @@ NIGHT = datetime(2026, 11, 20, 23, 30, tzinfo=timezone.utc)
 CLASS = "name,id\nAnna Berg,s1001\nBen Kaya,s1002\nCleo Ott,s1003\nDora Li,s1004\nEve Wu,s1005\n"
 
 
-def book(place: Path, lab: str, *results: Result, settings: Settings | None = None) -> Path:
+def book(place: Path, lab: str, *results: GradingResult, settings: Settings | None = None) -> Path:
     """The gradebook of a lab, as `grade` leaves it."""
     folder = place / f"grades-{lab}"
     folder.mkdir(exist_ok=True)

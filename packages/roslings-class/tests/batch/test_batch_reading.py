@@ -11,7 +11,7 @@ from roslings.course import lab
 from roslings.workspace.bounded import Bookmark, ReadingBounds, read_in_child
 from roslings_class.fingerprints import LARGEST_FILE_BYTES, fingerprint
 from roslings_class.grading import grade
-from roslings_class.result import Order
+from roslings_class.result import GradingOrder
 from written_png import head_of, png_of
 
 TOPICS = lab("topics")
@@ -35,7 +35,7 @@ def test_it_is_refused_once(name: str, tmp_path: Path) -> None:
     (package / name).write_bytes(content)
     room = tmp_path / "room"
     room.mkdir()
-    order = Order.model_validate(
+    order = GradingOrder.model_validate(
         {
             "lab": "topics",
             "submission": "anna",

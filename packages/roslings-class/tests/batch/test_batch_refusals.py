@@ -14,17 +14,17 @@ import pytest
 from packed import make_tar, zip_bytes
 from test_batch_export import TOPICS
 
-from roslings.hand_in.errors import Refused
+from roslings.hand_in.errors import HandInRefused
 from roslings.hand_in.unpack import package_in
 from roslings.report.flow import one_line, paragraphs
 from roslings.workspace import errors, file_kinds
 from roslings.workspace.errors import MachineTrouble, WorkspaceError
-from roslings.workspace.file_kinds import MAGIC, Kind, kind_of
+from roslings.workspace.file_kinds import MAGIC, FileKind, kind_of
 from roslings.workspace.packages import find_package
 from roslings_class.gradebook import gradebook
 from roslings_class.handing_out import Settings, hand_out, keep
 from roslings_class.messages import COLUMNS, summary_lines
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 
 
 def empty_zip() -> bytes:
@@ -40,7 +40,7 @@ def tar(folder: Path) -> bytes:
 
 
 WHOLE = zip_bytes([("readme.txt", b"hi" * 500)])
-KINDS: dict[str, tuple[bytes, Kind]] = {
+KINDS: dict[str, tuple[bytes, FileKind]] = {
     "empty": (b"", file_kinds.EMPTY),
     "empty zip": (empty_zip(), file_kinds.EMPTY_ARCHIVE),
     "zip": (WHOLE, file_kinds.ZIP_FILE),
@@ -81,7 +81,7 @@ def test_each_kind_is_named_with_the_next_step(word: str, place: str, tmp_path: 
     (tmp_path / "in/anna").mkdir(parents=True)
     (tmp_path / "in" / place).write_bytes(content)
     top = tmp_path / "in" / place.partition("/")[0]
-    with pytest.raises(Refused) as refusal:
+    with pytest.raises(HandInRefused) as refusal:
         package_in(top, "chatter", tmp_path)
     reason = refusal.value.reason
     assert "but a packed file" not in reason
@@ -113,7 +113,7 @@ TOLD: dict[type[WorkspaceError], tuple[WorkspaceError, ...]] = {
     errors.OfOtherLab: (errors.OfOtherLab(HERE, "nodes", "topics"),),
     errors.OnlyOtherLabs: (errors.OnlyOtherLabs("chatter", [("rover_status", "nodes")]),),
     errors.NotThere: (errors.NotThere(HERE, "./roslings start topics"),),
-    errors.NoFile: (errors.NoFile(HERE),),
+    errors.NotAFile: (errors.NotAFile(HERE),),
     errors.ChangedMeanwhile: (errors.ChangedMeanwhile(HERE),),
     errors.NotAFolder: (errors.NotAFolder(HERE),),
     errors.Archive: (errors.Archive(HERE, RAR), errors.Archive(HERE, CUT_OFF)),
@@ -140,7 +140,7 @@ TOLD: dict[type[WorkspaceError], tuple[WorkspaceError, ...]] = {
     ),
     errors.PictureTooLarge: (errors.PictureTooLarge(HERE / "a.png", 7000, 7000, 20_000_000),),
     errors.PictureTooSlow: (errors.PictureTooSlow(HERE / "a.png", 49_000_000, 5.0),),
-    errors.AlreadyThere: (errors.AlreadyThere("It is there.", "Give another name."),),
+    errors.TargetAlreadyThere: (errors.TargetAlreadyThere("It is there.", "Give another name."),),
 }
 REASONS = [(each.problem, each.next_step) for some in TOLD.values() for each in some]
 
@@ -170,7 +170,7 @@ def test_every_reason_is_whole_in_terminal_csv_and_page(tmp_path: Path) -> None:
         keep(book, Settings(roster=tmp_path / "class.csv"))
         for name, (reason, step) in zip(names, REASONS, strict=True):
             book.write(
-                Result(
+                GradingResult(
                     submission=name,
                     digest="d",
                     attempt=1,

@@ -12,13 +12,13 @@ from pathlib import Path
 
 import pytest
 
-from roslings_class.capacity import Capacity, Look
+from roslings_class.capacity import Capacity, MachineLoad
 from roslings_class.errors import BadGradebook
 from roslings_class.gradebook import Gradebook, gradebook, lab_of
-from roslings_class.result import Result
-from roslings_class.scheduler import GradingRequest, Scheduler, Standing
+from roslings_class.result import GradingResult
+from roslings_class.scheduler import BatchProgress, GradingRequest, Scheduler
 from roslings_class.submissions import Submission
-from roslings_class.worker_pool import Limits, worker_pool
+from roslings_class.worker_pool import GradingLimits, worker_pool
 
 HERE = Path(__file__).parent
 
@@ -48,12 +48,16 @@ def submitted(folder: Path, *names: str) -> list[Submission]:
 
 def run(
     folder: Path, book: Gradebook, submissions: list[Submission], jobs: int = 3, limit_s: float = 60
-) -> list[Standing]:
+) -> list[BatchProgress]:
     """One run; what it told on its way."""
-    told: list[Standing] = []
+    told: list[BatchProgress] = []
     with held_lock(folder) as lock:
         request = GradingRequest(
-            "topics", folder / "scratch", lock, limits=Limits(limit_s, 0.5), life="lives:by_name"
+            "topics",
+            folder / "scratch",
+            lock,
+            limits=GradingLimits(limit_s, 0.5),
+            entry_point="lives:by_name",
         )
         Scheduler(request, book, Capacity(fixed=jobs), told.append).run(submissions)
     assert not any((folder / "scratch" / "rooms").glob("*"))
@@ -121,7 +125,7 @@ def test_leaving_the_block_ends_all(tmp_path: Path) -> None:
     (submission,) = submitted(tmp_path, "hang-1")
     with held_lock(tmp_path) as lock, pytest.raises(KeyboardInterrupt):
         request = GradingRequest("topics", tmp_path / "scratch", lock)
-        with worker_pool(lock, Limits(ending_s=0.5), "lives:by_name") as workers:
+        with worker_pool(lock, GradingLimits(ending_s=0.5), "lives:by_name") as workers:
             workers.start(request.order(submission, "d", 1))
             until(lambda: (tmp_path / "hangs").exists())
             raise KeyboardInterrupt
@@ -153,12 +157,12 @@ class Machine:
         self._idle, self._free = list(idle), free_bytes
         self._at_s = self._idle_s = 0.0
 
-    def __call__(self) -> Look:
+    def __call__(self) -> MachineLoad:
         """Four seconds later."""
         cores = os.cpu_count() or 1
         self._at_s += 4.0
         self._idle_s += 4.0 * cores * (self._idle.pop(0) if self._idle else 0.1)
-        return Look(self._at_s, self._idle_s, self._free)
+        return MachineLoad(self._at_s, self._idle_s, self._free)
 
 
 def test_idle_processors_let_more_in() -> None:
@@ -207,9 +211,9 @@ def test_memory_bounds_it() -> None:
 # --- the gradebook -----------------------------------------------------------------------------
 
 
-def result(name: str, attempt: int = 1) -> Result:
+def result(name: str, attempt: int = 1) -> GradingResult:
     """A short result."""
-    return Result(submission=name, digest="d", attempt=attempt, state="refused", reason="r")
+    return GradingResult(submission=name, digest="d", attempt=attempt, state="refused", reason="r")
 
 
 def test_a_result_and_its_evidence_are_one(tmp_path: Path) -> None:

@@ -16,22 +16,22 @@ import pytest
 
 from roslings.course import lab
 from roslings.evidence import BuildSeen, Evidence, MachineSeen
+from roslings.grading.shapes import SHAPES
 from roslings.judge import judge
 from roslings.report.evidence_file import evidence_bytes
-from roslings.shapes import SHAPES
 from roslings.workspace.inspect import inspect_package
-from roslings_class.command import Choices, grade
+from roslings_class.command import GradeOptions, grade
 from roslings_class.dask_pool import _packed
 from roslings_class.folders import folder_name
 from roslings_class.gradebook import SCHEMA, gradebook
 from roslings_class.grading import packed, unpacked
 from roslings_class.regrade import override, regrade_all
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.scheduler import GradingRequest
 from roslings_class.signed_gradebook import take_key
-from roslings_class.signing import BYTES, FILE, BadKey, ClassKey, Origin
+from roslings_class.signing import BYTES, FILE, BadKey, ClassKey, EvidenceOrigin
 from roslings_class.submissions import Submission, digest_of
-from roslings_class.worker_pool import Limits
+from roslings_class.worker_pool import GradingLimits
 from roslings_launcher.cli import main
 
 TOPICS = lab("topics")
@@ -55,7 +55,7 @@ POOR, RICH = seen(TOPICS.starter), seen(TOPICS.solution, builds=True)
 """What was measured, and what a forger would like to have been measured."""
 
 
-def result(name: str, evidence: Evidence = POOR, attempt: int = 1) -> Result:
+def result(name: str, evidence: Evidence = POOR, attempt: int = 1) -> GradingResult:
     """What came of a grading."""
     words = {
         "submission": name,
@@ -64,7 +64,7 @@ def result(name: str, evidence: Evidence = POOR, attempt: int = 1) -> Result:
         "state": "graded",
         "verdict": judge(TOPICS, evidence),
     }
-    return Result.model_validate(words)
+    return GradingResult.model_validate(words)
 
 
 def graded(folder: Path) -> Path:
@@ -136,14 +136,14 @@ def of_another_lab(folder: Path) -> None:
     """Signed by the same key for another lab."""
     key = ClassKey(bytes.fromhex((folder / FILE).read_text()))
     content = packed(RICH)
-    signature = key.sign(Origin("services", "anna", "d-anna", 1), content)
+    signature = key.sign(EvidenceOrigin("services", "anna", "d-anna", 1), content)
     sql(folder, SET.format("content=?, signature=?"), content, signature)
 
 
 def of_another_class(folder: Path) -> None:
     """Signed by the key of another class."""
     content = packed(RICH)
-    signature = ClassKey(bytes(BYTES)).sign(Origin("topics", "anna", "d-anna", 1), content)
+    signature = ClassKey(bytes(BYTES)).sign(EvidenceOrigin("topics", "anna", "d-anna", 1), content)
     sql(folder, SET.format("content=?, signature=?"), content, signature)
 
 
@@ -239,7 +239,7 @@ def test_grade_measures_anew_what_was_forged(out: Path, tmp_path: Path) -> None:
             told = result(name).model_copy(update={"digest": digest})
             book.write(told, packed(POOR))
     edited(out)
-    report = grade(Choices("topics", tmp_path / "in", out, trust=True))
+    report = grade(GradeOptions("topics", tmp_path / "in", out, trust=True))
     assert "not what was measured:\n  anna" in report.lines[0]
     with gradebook(out, "topics") as book:
         words = {name: (each.word, each.attempt) for name, each in book.latest().items()}
@@ -438,7 +438,7 @@ def test_nothing_of_it_is_lost(tmp_path: Path) -> None:
 def test_an_empty_folder_says_nothing_of_signing(tmp_path: Path) -> None:
     """The first `grade` makes the key without a word."""
     (tmp_path / "in/anna").mkdir(parents=True)
-    report = grade(Choices("topics", tmp_path / "in", tmp_path / "new", trust=True))
+    report = grade(GradeOptions("topics", tmp_path / "in", tmp_path / "new", trust=True))
     assert "sign" not in "\n".join(report.lines)
     assert (tmp_path / "new" / FILE).is_file()
 
@@ -459,7 +459,7 @@ def test_the_key_never_travels(out: Path, tmp_path: Path) -> None:
     """What a Dask worker gets has nothing of it: the command signs what comes back."""
     request = GradingRequest("topics", tmp_path, tmp_path / "lock")
     submission = Submission("anna", shutil.copytree(TOPICS.starter, tmp_path / "anna"))
-    parcel = pickle.dumps(_packed(request.order(submission, "d", 1), "v", False, Limits()))
+    parcel = pickle.dumps(_packed(request.order(submission, "d", 1), "v", False, GradingLimits()))
     secret = bytes.fromhex((out / FILE).read_text())
     assert secret not in parcel and secret.hex().encode() not in parcel
 

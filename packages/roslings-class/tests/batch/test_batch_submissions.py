@@ -21,14 +21,14 @@ from packed import (
     zip_with_raw_name,
 )
 
-from roslings.hand_in.archives import Budget, unpack
-from roslings.hand_in.errors import HostileArchive, Refused
+from roslings.hand_in.archives import UnpackBudget, unpack
+from roslings.hand_in.errors import HandInRefused, HostileArchive
 from roslings.hand_in.unpack import package_in
-from roslings.workspace.sources import Limits
+from roslings.workspace.sources import PackageLimits
 from roslings_class.errors import BadTable, NoSubmissions
 from roslings_class.submissions import digest_of, find_submissions
 
-SMALL = Limits(bytes=100_000, files=50)
+SMALL = PackageLimits(bytes=100_000, files=50)
 Make = Callable[[Path], Path]
 
 
@@ -87,7 +87,7 @@ def test_a_hostile_archive_is_refused(tmp_path: Path, make: Make, says: str) -> 
     around.mkdir()
     file = make(tmp_path / "it.zip")
     with pytest.raises(HostileArchive, match=says) as refusal:
-        unpack(file, around / "out", Budget(SMALL))
+        unpack(file, around / "out", UnpackBudget(SMALL))
     assert "roslings pack" in refusal.value.next_step
     assert [path.name for path in around.iterdir()] == ["out"]
     written = [path for path in (around / "out").rglob("*") if path.is_file()]
@@ -100,7 +100,7 @@ def test_a_broken_file_is_refused(tmp_path: Path, content: bytes) -> None:
     """As a file to pack again."""
     file = tmp_path / "it.zip"
     file.write_bytes(content)
-    with pytest.raises(Refused):
+    with pytest.raises(HandInRefused):
         package_in(file, "chatter", tmp_path)
 
 
@@ -113,7 +113,7 @@ def test_an_entry_that_begins_before_the_file_is_refused(shift: int, tmp_path: P
     (place,) = struct.unpack_from("<I", content, at)
     struct.pack_into("<I", content, at, place + shift)
     archive.write_bytes(content)
-    with pytest.raises(Refused):
+    with pytest.raises(HandInRefused):
         package_in(archive, "chatter", tmp_path)
 
 
@@ -123,7 +123,7 @@ def test_a_broken_checksum_is_refused(tmp_path: Path) -> None:
     content = bytearray(file.read_bytes())
     content[20_000:20_100] = bytes(100)
     file.write_bytes(content[:40_000])
-    with pytest.raises(Refused, match="cannot be unpacked"):
+    with pytest.raises(HandInRefused, match="cannot be unpacked"):
         unpack(file, tmp_path / "out")
 
 
@@ -149,7 +149,7 @@ def test_a_folder_around_one_archive_is_that_archive(tmp_path: Path) -> None:
 def test_an_archive_in_an_archive_is_named(tmp_path: Path, name: str) -> None:
     """It is not "no package": the student sees which file to unpack."""
     outer = make_zip(tmp_path / "it.zip", [(name, b"PK"), ("readme.txt", b"")])
-    with pytest.raises(Refused, match=r"inner\.") as refusal:
+    with pytest.raises(HandInRefused, match=r"inner\.") as refusal:
         package_in(outer, "chatter", tmp_path)
     assert "./roslings pack LAB" in refusal.value.next_step
     assert str(tmp_path) not in str(refusal.value)
@@ -158,7 +158,7 @@ def test_an_archive_in_an_archive_is_named(tmp_path: Path, name: str) -> None:
 def test_an_empty_archive_is_named(tmp_path: Path) -> None:
     """So is one that holds nothing but folders."""
     outer = make_zip(tmp_path / "it.zip", [("anna/src/", b"")])
-    with pytest.raises(Refused, match="submission is empty"):
+    with pytest.raises(HandInRefused, match="submission is empty"):
         package_in(outer, "chatter", tmp_path)
 
 
@@ -193,7 +193,7 @@ def test_two_packages_or_none_are_refused(
     tmp_path: Path, entries: list[tuple[str, bytes]], says: str
 ) -> None:
     """The reason names no place of the machine that grades."""
-    with pytest.raises(Refused, match=says) as refusal:
+    with pytest.raises(HandInRefused, match=says) as refusal:
         package_in(folder_of(tmp_path / "anna", entries), "chatter", tmp_path)
     assert str(tmp_path) not in str(refusal.value)
 
@@ -203,7 +203,7 @@ def test_a_link_to_another_submission_is_refused(tmp_path: Path) -> None:
     folder_of(tmp_path / "anna")
     (tmp_path / "ben").mkdir()
     (tmp_path / "ben/chatter").symlink_to(tmp_path / "anna/chatter")
-    with pytest.raises(Refused, match="link"):
+    with pytest.raises(HandInRefused, match="link"):
         package_in(tmp_path / "ben", "chatter", tmp_path)
 
 
@@ -211,7 +211,7 @@ def test_a_link_out_of_the_package_is_refused(tmp_path: Path) -> None:
     """Its target would be read as if it were handed in."""
     folder_of(tmp_path / "ben")
     (tmp_path / "ben/chatter/secret").symlink_to("/etc/passwd")
-    with pytest.raises(Refused, match="outside the package"):
+    with pytest.raises(HandInRefused, match="outside the package"):
         package_in(tmp_path / "ben", "chatter", tmp_path)
 
 
@@ -222,7 +222,7 @@ def test_a_link_tells_its_own_words_and_not_where_it_leads_here(tmp_path: Path) 
     folder_of(tmp_path / "ben")
     (tmp_path / "ben/chatter/secret").symlink_to("../../anna")
     (tmp_path / "anna").mkdir()
-    with pytest.raises(Refused, match=r"a link to\n\.\./\.\./anna, which leads") as refusal:
+    with pytest.raises(HandInRefused, match=r"a link to\n\.\./\.\./anna, which leads") as refusal:
         package_in(tmp_path / "ben", "chatter", room)
     assert str(tmp_path) not in str(refusal.value)
 

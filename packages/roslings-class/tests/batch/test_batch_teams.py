@@ -11,9 +11,9 @@ from rounds import FILES, Round, canvas_zip, clone, moodle_zip, played, rule
 from test_batch_export import graded
 
 from roslings import course
-from roslings_class.command import Choices
+from roslings_class.command import GradeOptions
 from roslings_class.regrade import override
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.roster import NobodyInTheList, Student, match, read_roster
 
 WORKSHEET = """\
@@ -47,14 +47,14 @@ Topics,u,s,zoe,z@example.org,lab-topics-gruen,r,2026-11-30T08:00:00Z,0,100,gruen
 """
 
 
-def verdicts(name: str) -> Result:
+def verdicts(name: str) -> GradingResult:
     """Red has 84, everybody else 98."""
     return (
         graded(name, "rate", "figure", hz=1.0) if "rot" in name.lower() else graded(name, "figure")
     )
 
 
-def of_moodle(folder: Path) -> Choices:
+def of_moodle(folder: Path) -> GradeOptions:
     """Team folders, whose numbers are also those of two participants; one group has no number."""
     zip_ = moodle_zip(folder, MOODLE_NAMES)
     entries = [
@@ -62,10 +62,12 @@ def of_moodle(folder: Path) -> Choices:
     ]
     make_zip(zip_, [*entries, (f"Default group{FILES}/t.zip", zip_bytes())])
     (folder / "worksheet.csv").write_text(WORKSHEET, "utf-8")
-    return Choices("topics", zip_, folder / "out", roster=folder / "worksheet.csv", rule=rule())
+    return GradeOptions(
+        "topics", zip_, folder / "out", roster=folder / "worksheet.csv", rule=rule()
+    )
 
 
-def of_canvas(folder: Path) -> Choices:
+def of_canvas(folder: Path) -> GradeOptions:
     """A group's file has the number of one member."""
     zip_ = canvas_zip(folder, ["teamrot_LATE_78_8812_topics.zip", "grüne7_79_8813_topics.zip"])
     (folder / "groups.csv").write_text(GROUP_SET, "utf-8")
@@ -74,7 +76,7 @@ def of_canvas(folder: Path) -> Choices:
         ' {"user_id": 78, "submitted_at": "2026-12-01T07:00:00Z", "late": true},'
         ' {"user_id": 79, "submitted_at": "2026-11-30T07:00:00Z", "late": false}]'
     )
-    return Choices(
+    return GradeOptions(
         "topics",
         zip_,
         folder / "out",
@@ -84,12 +86,12 @@ def of_canvas(folder: Path) -> Choices:
     )
 
 
-def of_classroom(folder: Path) -> Choices:
+def of_classroom(folder: Path) -> GradeOptions:
     """Two clones; the class list is GitHub's own list of grades."""
     for name in ("lab-topics-team-rot", "lab-topics-gruen"):
         clone(folder / "clones" / name)
     (folder / "grades.csv").write_text(CLASSROOM, "utf-8")
-    return Choices(
+    return GradeOptions(
         "topics", folder / "clones", folder / "out", roster=folder / "grades.csv", rule=rule()
     )
 
@@ -249,7 +251,7 @@ def test_a_class_list_without_the_teams_is_told_what_it_needs(tmp_path: Path) ->
     (tmp_path / "class.csv").write_text("name,id\nAnna Berg,s1001\nBen Kaya,s1002\n")
     zip_ = moodle_zip(tmp_path, {"Rot": 7, "Blau": 8})
     with pytest.raises(NobodyInTheList, match="column `team`, or Moodle's worksheet"):
-        played(Choices("topics", zip_, tmp_path / "out", roster=tmp_path / "class.csv"))
+        played(GradeOptions("topics", zip_, tmp_path / "out", roster=tmp_path / "class.csv"))
 
 
 def test_the_number_of_an_unknown_group_is_nobodys() -> None:

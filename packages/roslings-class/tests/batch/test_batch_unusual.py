@@ -14,8 +14,8 @@ from roslings.evidence import (
     ProcessSeen,
 )
 from roslings_class.class_page import write_class_page
-from roslings_class.grades import Class, Grade
-from roslings_class.result import Result
+from roslings_class.grades import Class, StudentGrade
+from roslings_class.result import GradingResult
 from roslings_class.unusual import BOUNDS, unusual
 
 
@@ -91,14 +91,14 @@ def test_the_class_page_names_who_did_it(tmp_path: Path) -> None:
     assert "What was not ordinary" not in page_of([ordinary], tmp_path)
 
 
-def result(name: str, **words: object) -> Result:
+def result(name: str, **words: object) -> GradingResult:
     """Of one submission."""
     begin = {"submission": name, "digest": name, "attempt": 1, "state": "graded"}
-    return Result.model_validate({**begin, **words})
+    return GradingResult.model_validate({**begin, **words})
 
 
-def page_of(results: list[Result], tmp_path: Path) -> str:
+def page_of(results: list[GradingResult], tmp_path: Path) -> str:
     """The class's page."""
-    grades = [Grade(student=None, result=each) for each in results]
+    grades = [StudentGrade(student=None, result=each) for each in results]
     write_class_page(lab("topics"), Class(grades), (), tmp_path / "class.html")
     return (tmp_path / "class.html").read_text("utf-8")

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import written_verdicts
 
-from roslings.platforms import writer_of
+from roslings.grading.platforms import writer_of
 from roslings.report.refusal import Refusal
 from roslings.verdict import Verdict
 

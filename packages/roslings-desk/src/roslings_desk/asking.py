@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 from concurrent.futures import Future
 from typing import Any, TypeVar
 
-from ros2_on_pip.calling import PATIENCE_S, CallFailed, NoAnswer
+from ros2_on_pip.calling import PATIENCE_S, CallFailed, ServiceSilent
 from roslings_desk.hub import Hub
 
 LOOK_EVERY_S = 0.02
@@ -15,8 +15,8 @@ T = TypeVar("T")
 
 
 async def ask(hub: Hub, service: str, cls: Any, request: Any) -> Any:
-    """The answer of a service. Raises NoAnswer, CallFailed."""
-    node = hub.eye.node
+    """The answer of a service. Raises ServiceSilent, CallFailed."""
+    node = hub.desk_node.node
     client = await asyncio.wrap_future(hub.do(lambda: node.create_client(cls, service)))
     try:
         return await in_time(service, _answer(hub, client, request))
@@ -30,11 +30,11 @@ async def _answer(hub: Hub, client: Any, request: Any) -> Any:
 
 
 async def in_time(asked: str, waiting: Awaitable[T]) -> T:
-    """What comes of it, from the service or action `asked`. Raises NoAnswer."""
+    """What comes of it, from the service or action `asked`. Raises ServiceSilent."""
     try:
         return await asyncio.wait_for(waiting, PATIENCE_S)
     except asyncio.TimeoutError:
-        raise NoAnswer(asked, PATIENCE_S) from None
+        raise ServiceSilent(asked, PATIENCE_S) from None
 
 
 async def is_true(condition: Callable[[], bool]) -> None:

@@ -7,7 +7,7 @@ import time
 from nicegui import ui
 
 from roslings_desk.bag_player import BagPlayer
-from roslings_desk.controls import Slider, Text, button, part
+from roslings_desk.controls import PageText, Slider, button, part
 
 EVERY_S = 0.25
 STEP_S = 0.1
@@ -24,11 +24,11 @@ class BagBar:
         with part("div", "bag", role="group", aria_label="The bag"):
             self._pause = button("", self._turn)
             self._place = Slider("Place in the bag, s", 0.0, 0.0, player.duration_s, STEP_S)
-            self._said = Text("p", "", "value")
+            self._said = PageText("p", "", "value")
         if player.left_out:
             there = ", ".join(player.left_out)
-            Text("p", f"Not played, since their types are not installed: {there}", "hint")
-        self._trouble = Text("p", "", "notice", role="alert")
+            PageText("p", f"Not played, since their types are not installed: {there}", "hint")
+        self._trouble = PageText("p", "", "notice", role="alert")
         self._place.on_change(self._jump)
         self._follow()
         ui.timer(EVERY_S, self._follow)

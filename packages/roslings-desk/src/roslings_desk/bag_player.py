@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any
 
 from ros2_on_pip.bag.clock import BagClock
-from ros2_on_pip.discovery import Eye
+from ros2_on_pip.discovery import DirectNode
 from ros2_on_pip.domain_lease import leased_domain
 from ros2_on_pip.interfaces import UnknownInterface, class_of
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.rosbag2.errors import BagError
 from ros2_on_pip.rosbag2.quality import offered
 from ros2_on_pip.rosbag2.reading import open_bag
@@ -28,11 +28,11 @@ SHORTLY_BEFORE_NS = 5 * 10**9
 LONGEST_WAIT_S = 3600.0
 
 
-class BadBag(Problem):
+class BadBag(CommandProblem):
     """It is no bag, or it is damaged."""
 
 
-class EmptyBag(Problem):
+class EmptyBag(CommandProblem):
     """Nothing in it can be played here."""
 
     def __init__(self, path: Path) -> None:
@@ -196,5 +196,9 @@ def playing(path: Path) -> Iterator[BagPlayer]:
     """It plays, in a domain of its own, which is this process's from now on."""
     with leased_domain() as domain:
         os.environ["ROS_DOMAIN_ID"] = str(domain)
-        with closing(BagPlayer(path)) as player, Eye(NODE) as eye, player.played_by(eye.node):
+        with (
+            closing(BagPlayer(path)) as player,
+            DirectNode(NODE) as direct_node,
+            player.played_by(direct_node.node),
+        ):
             yield player

@@ -22,7 +22,7 @@ ROS_ARGUMENTS, THEIR_END = "--ros-args", "--"
 
 
 @dataclass(frozen=True)
-class Window:
+class DeskTabWindow:
     """A tab of the desk, by the name of a window. `ros2_on_pip.windows` asks for it."""
 
     tab: str
@@ -33,13 +33,13 @@ class Window:
         return find_spec("nicegui") is not None
 
     @property
-    def typed(self) -> str:
+    def command(self) -> str:
         """Only a course has the script."""
         return f"./roslings desk {self.tab}" if is_of_the_course() else ""
 
     def open(self, argv: Sequence[str]) -> int:
         """Serve the desk until Ctrl-C."""
-        from roslings_desk.server import Wish, run
+        from roslings_desk.server import DeskOptions, run
 
         if set(HELP) & set(argv):
             print(self._help())
@@ -47,7 +47,7 @@ class Window:
         tab, words, left_out = self.read(argv)
         if left_out:
             print(f"The desk leaves out: {' '.join(left_out)}", file=sys.stderr)
-        run(Wish(tab, shown=tuple(words)))
+        run(DeskOptions(tab, shown=tuple(words)))
         return OK
 
     def read(self, argv: Sequence[str]) -> tuple[str, list[str], list[str]]:
@@ -83,16 +83,16 @@ def _to_the_end(words: Iterator[str]) -> Iterator[str]:
 
 
 WINDOWS = {
-    "rqt": Window("rover"),
-    "rqt_action": Window("actions"),
-    "rqt_console": Window("log"),
-    "rqt_graph": Window("graph"),
-    "rqt_gui": Window("rover"),
-    "rqt_image_view": Window("image"),
-    "rqt_plot": Window("plot"),
-    "rqt_publisher": Window("topics"),
-    "rqt_reconfigure": Window("parameters"),
-    "rqt_robot_steering": Window("rover"),
-    "rqt_service_caller": Window("services"),
-    "rqt_topic": Window("topics"),
+    "rqt": DeskTabWindow("rover"),
+    "rqt_action": DeskTabWindow("actions"),
+    "rqt_console": DeskTabWindow("log"),
+    "rqt_graph": DeskTabWindow("graph"),
+    "rqt_gui": DeskTabWindow("rover"),
+    "rqt_image_view": DeskTabWindow("image"),
+    "rqt_plot": DeskTabWindow("plot"),
+    "rqt_publisher": DeskTabWindow("topics"),
+    "rqt_reconfigure": DeskTabWindow("parameters"),
+    "rqt_robot_steering": DeskTabWindow("rover"),
+    "rqt_service_caller": DeskTabWindow("services"),
+    "rqt_topic": DeskTabWindow("topics"),
 }

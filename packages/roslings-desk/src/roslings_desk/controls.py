@@ -14,13 +14,13 @@ from typing import Any
 from nicegui import ui
 from nicegui.elements.mixins.text_element import TextElement
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 
 VALUE = "(event) => emit(event.target.value)"
 CHECKED = "(event) => emit(event.target.checked)"
 
 
-class Text(TextElement):
+class PageText(TextElement):
     """An element with words in it; `text` changes them."""
 
     def __init__(self, tag: str, text: str = "", kind: str = "", **attributes: Any) -> None:
@@ -48,14 +48,14 @@ def _dress(element: ui.element, kind: str, attributes: dict[str, Any]) -> None:
             element.props[name.rstrip("_").replace("_", "-")] = value
 
 
-def button(text: str, act: Callable[[], Any], kind: str = "", **attributes: Any) -> Text:
+def button(text: str, act: Callable[[], Any], kind: str = "", **attributes: Any) -> PageText:
     """What is pressed."""
-    made = Text("button", text, kind, type="button", **attributes)
+    made = PageText("button", text, kind, type="button", **attributes)
     made.on("click", act, args=[])
     return made
 
 
-class Field:
+class ControlField:
     """A control with its label before it."""
 
     def __init__(
@@ -64,7 +64,7 @@ class Field:
         self.value = value
         self._changed: list[Callable[[], Any]] = []
         with part("div", f"field {kind}"):
-            words = Text("label", label)
+            words = PageText("label", label)
             self.control = part(tag, **attributes)
         words.props["for"] = self.control.html_id
 
@@ -96,7 +96,7 @@ class Field:
                 await doing
 
 
-class TextField(Field):
+class TextField(ControlField):
     """A line to type into; `value` is what stands there."""
 
     def __init__(self, label: str, value: str = "", kind: str = "", **attributes: Any) -> None:
@@ -106,7 +106,7 @@ class TextField(Field):
         self.control.on("input", lambda event: self._take(str(event.args)), js_handler=VALUE)
 
 
-class Slider(Field):
+class Slider(ControlField):
     """A number between two others; `value` is the number as a text."""
 
     def __init__(self, label: str, value: float, least: float, most: float, step: float) -> None:
@@ -116,7 +116,7 @@ class Slider(Field):
         self.control.on("input", lambda event: self._take(str(event.args)), js_handler=VALUE)
 
 
-class Check(Field):
+class CheckField(ControlField):
     """A box to tick; `value` tells whether it is."""
 
     def __init__(self, label: str, value: bool = False, kind: str = "check") -> None:
@@ -129,7 +129,7 @@ class Check(Field):
         self._set("checked", self.value)
 
 
-class Choice(Field):
+class SelectField(ControlField):
     """A list to choose one of; `value` is the chosen text, "" where none is chosen yet."""
 
     def __init__(
@@ -157,19 +157,19 @@ class Choice(Field):
         self.control.clear()
         with self.control:
             if not self.value:
-                Text("option", "Choose", value="", selected=True)
+                PageText("option", "Choose", value="", selected=True)
             for each in new:
-                Text("option", each, value=each, selected=each == self.value or None)
+                PageText("option", each, value=each, selected=each == self.value or None)
 
 
-class Notice(Text):
+class Notice(PageText):
     """A line that tells of trouble; screen readers say it at once."""
 
     def __init__(self) -> None:
         super().__init__("p", "", "notice", role="alert")
 
 
-class Spoken(Text):
+class StatusLine(PageText):
     """A line that screen readers say when it changes, in their own time: for what was asked."""
 
     def __init__(self) -> None:
@@ -180,7 +180,7 @@ def problem_of(act: Callable[[], Any]) -> str:
     """Do it; the words of what cannot be done, else nothing."""
     try:
         act()
-    except Problem as problem:
+    except CommandProblem as problem:
         return str(problem)
     return ""
 
@@ -198,13 +198,13 @@ def told(notice: Notice, act: Callable[[], Any]) -> Callable[[], Awaitable[None]
         try:
             if isawaitable(doing := act()):
                 await doing
-        except Problem as problem:
+        except CommandProblem as problem:
             notice.say(str(problem))
 
     return acting
 
 
-class Names:
+class NameTable:
     """A table whose first column is pressed to choose a row; it scrolls inside of its own frame.
 
     A row that stays is not made anew, so the focus stays where it is.
@@ -212,12 +212,12 @@ class Names:
 
     def __init__(self, caption: str, columns: Sequence[str], choose: Callable[[str], Any]) -> None:
         self._choose = choose
-        self._rows: dict[str, tuple[ui.element, list[Text]]] = {}
+        self._rows: dict[str, tuple[ui.element, list[PageText]]] = {}
         frame = part("div", "scroll", role="region", tabindex=0, aria_label=caption)
         with frame, part("table"):
             with part("thead"), part("tr"):
                 for each in columns:
-                    Text("th", each, scope="col")
+                    PageText("th", each, scope="col")
             self._body = part("tbody")
 
     def show(self, rows: Sequence[Sequence[str]], chosen: str = "") -> None:
@@ -240,8 +240,8 @@ class Names:
             line.props["aria-current"] = current
             line.update()
 
-    def _made(self, name: str, cells: Sequence[str]) -> tuple[ui.element, list[Text]]:
+    def _made(self, name: str, cells: Sequence[str]) -> tuple[ui.element, list[PageText]]:
         with self._body, part("tr") as line:
             with part("td"):
                 button(name, lambda: self._choose(name))
-            return line, [Text("td", words) for words in cells]
+            return line, [PageText("td", words) for words in cells]

@@ -1,7 +1,7 @@
 """The file that leads a browser of this user to the desk, with the key in it.
 
 Nobody else may read it. A key in the words of a command stands in the list of processes, which
-every user of the computer reads; so the browser is given the file's name only.
+every user of the computer reads. So the browser is given the file's name only.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Drives what listens on a topic of Twist, and stops it when nobody says any more to go on.
 
-Whoever drives says so again and again. Where that ends (the page was closed, the computer sleeps,
-the network is gone), a zero Twist is published after `LASTS_S`, by a timer of the node: neither the
-browser nor the server of the page has a part in it.
+Whoever drives says so again and again. That ends where the page was closed, the computer sleeps or
+the network is gone. Then a zero Twist is published after `LASTS_S`, by a timer of the node. Neither
+the browser nor the server of the page has a part in it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ EVERY_S = 0.1
 ACKED_WITHIN_S = 0.5
 
 
-class Driver:
+class TwistPublisher:
     """A publisher of geometry_msgs/msg/Twist. A context manager: leaving the block stops first."""
 
     def __init__(self, hub: Hub, topic: str) -> None:
@@ -28,7 +28,7 @@ class Driver:
         self._until_s = 0.0
         self.driving = False
 
-    def __enter__(self) -> Driver:
+    def __enter__(self) -> TwistPublisher:
         self._opened = self._hub.do(self._open)
         return self
 
@@ -44,18 +44,18 @@ class Driver:
         from geometry_msgs.msg import Twist
 
         self._make = Twist
-        self._publisher = self._hub.eye.node.create_publisher(Twist, self._topic, 10)
-        self._timer = self._hub.eye.node.create_timer(EVERY_S, self._go_on)
+        self._publisher = self._hub.desk_node.node.create_publisher(Twist, self._topic, 10)
+        self._timer = self._hub.desk_node.node.create_timer(EVERY_S, self._go_on)
 
     def _close(self) -> None:
         from rclpy.duration import Duration
 
         self._opened.result()
-        self._hub.eye.node.destroy_timer(self._timer)
+        self._hub.desk_node.node.destroy_timer(self._timer)
         if self.driving:
             self._end()
             self._publisher.wait_for_all_acked(Duration(seconds=ACKED_WITHIN_S))
-        self._hub.eye.node.destroy_publisher(self._publisher)
+        self._hub.desk_node.node.destroy_publisher(self._publisher)
 
     @property
     def listeners(self) -> int:

@@ -10,7 +10,7 @@ from types import FrameType
 ENDS_IT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
-class Ending:
+class SignalHandler:
     """What a signal does: it interrupts what begins, and asks a server to leave.
 
     An exception at any place of a loop that starts or ends would leave half of it behind. So none
@@ -32,12 +32,12 @@ class Ending:
 
 
 @contextmanager
-def ending() -> Iterator[Ending]:
+def ending() -> Iterator[SignalHandler]:
     """Take the signals for the time of the block, and then give them back.
 
     Ctrl-C counts also where a script started us deaf to it; `nohup` keeps its meaning.
     """
-    taken = Ending()
+    taken = SignalHandler()
     before = {
         number: signal.signal(number, taken)
         for number in ENDS_IT

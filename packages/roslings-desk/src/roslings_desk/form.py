@@ -13,8 +13,8 @@ import yaml
 from ros2_on_pip.field_types import FLOATS, INTEGERS, TEXTS, FieldType, read_type
 from ros2_on_pip.interfaces import name_of
 from ros2_on_pip.yaml_in import TIME, BadField, BadYaml, Stamp, filled, parsed
-from ros2_on_pip.yaml_out import Shape, dumped, plain_of
-from roslings_desk.controls import Check, Field, Text, TextField, part
+from ros2_on_pip.yaml_out import YamlOptions, dumped, plain_of
+from roslings_desk.controls import CheckField, ControlField, PageText, TextField, part
 
 MOST_FIELDS = 60
 Place = tuple[str, ...]
@@ -25,15 +25,15 @@ class Form:
 
     def __init__(self, cls: Any) -> None:
         self._cls = cls
-        self._fields: dict[Place, tuple[FieldType, Field, Any]] = {}
+        self._fields: dict[Place, tuple[FieldType, ControlField, Any]] = {}
         self._left_out = 0
         message = cls()
         with part("div", "form"):
             self._show(message, ())
             if not message.get_fields_and_field_types():
-                Text("p", "It has no fields.", "hint")
+                PageText("p", "It has no fields.", "hint")
             if self._left_out:
-                Text("p", f"{self._left_out} more fields keep their defaults.", "hint")
+                PageText("p", f"{self._left_out} more fields keep their defaults.", "hint")
 
     def filled(self) -> tuple[Any, list[Stamp]]:
         """The message, and what is to be set at each sending. Raises BadField."""
@@ -51,7 +51,7 @@ class Form:
             here, kind, value = (*place, name), read_type(text), getattr(message, name)
             if kind.is_message and not kind.many and name_of(value) != TIME:
                 with part("fieldset"):
-                    Text("legend", f"{name} ({kind.of})")
+                    PageText("legend", f"{name} ({kind.of})")
                     self._show(value, here)
             elif len(self._fields) >= MOST_FIELDS:
                 self._left_out += 1
@@ -59,9 +59,9 @@ class Form:
                 self._fields[here] = _control(f"{'.'.join(here)} ({text})", kind, value)
 
 
-def _control(label: str, kind: FieldType, value: Any) -> tuple[FieldType, Field, Any]:
+def _control(label: str, kind: FieldType, value: Any) -> tuple[FieldType, ControlField, Any]:
     if kind.of == "boolean" and not kind.many:
-        return kind, Check(label, bool(value)), bool(value)
+        return kind, CheckField(label, bool(value)), bool(value)
     typed = _typed(kind, value)
     return kind, TextField(label, typed), typed
 
@@ -74,7 +74,7 @@ def _typed(kind: FieldType, value: Any) -> str:
         return str(value)
     if not kind.many and (kind.of in INTEGERS or kind.of in FLOATS):
         return str(value[0] if isinstance(value, bytes) else value)
-    return dumped(plain_of(value, Shape(longest=None)), flow=True).strip()
+    return dumped(plain_of(value, YamlOptions(longest=None)), flow=True).strip()
 
 
 def _value(kind: FieldType, typed: Any, place: Place) -> Any:

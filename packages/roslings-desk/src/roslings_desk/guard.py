@@ -1,9 +1,10 @@
 """Who may speak with the desk: a browser of this computer's user, on the desk's own page.
 
 A robot hangs on it, and any web page can send requests to 127.0.0.1. So each request and each
-websocket is looked at before NiceGUI sees it: its Host (a foreign name can be made to lead here),
-its Origin (the page that sends it), and its key. The key comes once, in an address that only this
-user can read; from then on a cookie stands for it, which browsers send from our own page only.
+websocket is looked at before NiceGUI sees it. The guard looks at its Host (a foreign name can be
+made to lead here), its Origin (the page that sends it), and its key. The key comes once, in an
+address that only this user can read. From then on a cookie stands for it, which browsers send from
+our own page only.
 """
 
 from __future__ import annotations

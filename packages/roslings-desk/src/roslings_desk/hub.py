@@ -21,7 +21,7 @@ from typing import Any, TypeVar
 from ros2_on_pip.interfaces import class_of
 from ros2_on_pip.listening import SeveralTypes
 from ros2_on_pip.names import is_hidden
-from roslings_desk.looking import Look, heard_from_all
+from roslings_desk.looking import DeskNode, heard_from_all
 
 KEPT_MESSAGES, KEPT_BYTES = 2_000, 8_000_000
 RATE_OVER_S = 3.0
@@ -43,7 +43,7 @@ class Message:
 
 
 @dataclass(eq=False)
-class Heard:
+class SharedSubscription:
     """A topic that is listened to: how much came, and the newest of it."""
 
     topic: str
@@ -113,7 +113,7 @@ class Heard:
 
 
 @dataclass(frozen=True)
-class TopicSeen:
+class GraphTopic:
     """One topic of the graph, as others have it."""
 
     name: str
@@ -128,17 +128,17 @@ class Hub:
     def __init__(self, hidden: bool = False) -> None:
         self.name = f"{'_' if hidden else ''}desk_{os.getpid()}"
         """Of the node: two desks of one domain see each other. Lists leave a hidden one out."""
-        self.eye = Look(self.name)
+        self.desk_node = DeskNode(self.name)
         self.closing: set[Callable[[], None]] = set()
         """What is to be called before the node ends: it closes a tab that is open then."""
         self._ended = threading.Event()
         self._jobs: SimpleQueue[Callable[[], None]] = SimpleQueue()
-        self._heard: dict[tuple[str, str], Heard] = {}
+        self._heard: dict[tuple[str, str], SharedSubscription] = {}
         self._lock = threading.Lock()
-        self._look_s, self._topics = 0.0, tuple[TopicSeen, ...]()
+        self._look_s, self._topics = 0.0, tuple[GraphTopic, ...]()
 
     def __enter__(self) -> Hub:
-        self.eye.__enter__()
+        self.desk_node.__enter__()
         self._thread = threading.Thread(target=self._spin, name="ros")
         self._thread.start()
         return self
@@ -154,11 +154,11 @@ class Hub:
         self.do(lambda: None).result(PATIENCE_S)  # what was asked for before is done by then
         self._ended.set()
         self._thread.join()
-        self.eye.__exit__(kind, error, trace)
+        self.desk_node.__exit__(kind, error, trace)
 
     def _spin(self) -> None:
-        self.eye.settle()
-        self.eye.until(self._ended.is_set)
+        self.desk_node.settle()
+        self.desk_node.until(self._ended.is_set)
 
     def do(self, act: Callable[[], T]) -> Future[T]:
         """Run `act` in the thread that spins; what it returns or raises is in the future.
@@ -176,19 +176,19 @@ class Hub:
                 future.set_exception(error)
 
         self._jobs.put(run)
-        self.eye.soon(lambda: self._jobs.get_nowait()())
+        self.desk_node.soon(lambda: self._jobs.get_nowait()())
         return future
 
     # --- topics ----------------------------------------------------------------------------
 
-    def topics(self) -> tuple[TopicSeen, ...]:
+    def topics(self) -> tuple[GraphTopic, ...]:
         """All topics that others take part in, hidden ones left out; half a second old at most.
 
         Where there are so many that a look takes long, it is made less often.
         """
         began_s = time.monotonic()
         if began_s >= self._look_s:
-            names = sorted(name for name, _ in self.eye.node.get_topic_names_and_types())
+            names = sorted(name for name, _ in self.desk_node.node.get_topic_names_and_types())
             seen = [self._seen(name) for name in names if not is_hidden(name)]
             self._topics = tuple(each for each in seen if each.types)
             took_s = time.monotonic() - began_s
@@ -206,11 +206,14 @@ class Hub:
                 heard.fits_nobody = False
                 self.do(partial(self._again, heard))
 
-    def _seen(self, name: str) -> TopicSeen:
+    def _seen(self, name: str) -> GraphTopic:
         """Its types as others have them: our own subscription may be of an older one."""
-        publishers, subscriptions = self.eye.publishers(name), self.eye.ears(name)
+        publishers, subscriptions = (
+            self.desk_node.publishers(name),
+            self.desk_node.subscriptions(name),
+        )
         types = dict.fromkeys(info.topic_type for info in (*publishers, *subscriptions))
-        return TopicSeen(name, tuple(types), len(publishers), len(subscriptions))
+        return GraphTopic(name, tuple(types), len(publishers), len(subscriptions))
 
     def type_of(self, topic: str) -> str | None:
         """The type of a topic; None where nobody has it. Raises SeveralTypes."""
@@ -219,18 +222,18 @@ class Hub:
             raise SeveralTypes(topic, list(types))
         return types[0] if types else None
 
-    def hear(self, topic: str, type_name: str) -> Heard:
+    def hear(self, topic: str, type_name: str) -> SharedSubscription:
         """Listen to a topic until `leave` was called as often. Raises UnknownInterface."""
         cls = class_of(type_name, "msg")
         with self._lock:
             heard = self._heard.get((topic, type_name))
             if heard is None:
-                heard = self._heard[topic, type_name] = Heard(topic, type_name, cls)
+                heard = self._heard[topic, type_name] = SharedSubscription(topic, type_name, cls)
                 self.do(partial(self._subscribe, heard))
             heard.users += 1
             return heard
 
-    def leave(self, heard: Heard) -> None:
+    def leave(self, heard: SharedSubscription) -> None:
         """One page less shows it; after the last one nothing is subscribed any more."""
         with self._lock:
             heard.users -= 1
@@ -238,15 +241,15 @@ class Hub:
                 del self._heard[heard.topic, heard.type_name]
                 self.do(partial(self._unsubscribe, heard))
 
-    def _subscribe(self, heard: Heard) -> None:
+    def _subscribe(self, heard: SharedSubscription) -> None:
         from rclpy.event_handler import SubscriptionEventCallbacks
 
         def lose(event: Any) -> None:
             heard.lost = event.total_count
 
-        publishers = self.eye.publishers(heard.topic)
+        publishers = self.desk_node.publishers(heard.topic)
         heard.fits_nobody = not publishers
-        heard.subscription = self.eye.node.create_subscription(
+        heard.subscription = self.desk_node.node.create_subscription(
             heard.cls,
             heard.topic,
             heard.add,
@@ -259,19 +262,19 @@ class Hub:
             ),
         )
 
-    def _unsubscribe(self, heard: Heard) -> None:
+    def _unsubscribe(self, heard: SharedSubscription) -> None:
         if heard.subscription is not None:
-            self.eye.node.destroy_subscription(heard.subscription)
+            self.desk_node.node.destroy_subscription(heard.subscription)
             heard.subscription = None
 
-    def _again(self, heard: Heard) -> None:
+    def _again(self, heard: SharedSubscription) -> None:
         """A publisher came that offers less than the others did."""
         if heard.subscription is not None:
             self._unsubscribe(heard)
             self._subscribe(heard)
 
     @property
-    def heard(self) -> list[Heard]:
+    def heard(self) -> list[SharedSubscription]:
         """What is listened to now, by topic."""
         with self._lock:
             return sorted(self._heard.values(), key=lambda each: each.topic)

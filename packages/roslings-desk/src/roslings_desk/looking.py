@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ros2_on_pip import qos
-from ros2_on_pip.discovery import Eye
+from ros2_on_pip.discovery import DirectNode
 
 NOT_GIVEN = argparse.Namespace(
     qos_profile=None,
@@ -18,7 +18,7 @@ NOT_GIVEN = argparse.Namespace(
 """The options of `ros2 topic hz`, where nobody gives one."""
 
 
-class Look(Eye):
+class DeskNode(DirectNode):
     """A look that goes on as long as the desk is open."""
 
     def soon(self, act: Callable[[], None]) -> None:

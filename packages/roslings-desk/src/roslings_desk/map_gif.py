@@ -14,7 +14,7 @@ from typing import Any
 from roslings_rover.models.differential_drive import Body, Pose
 from roslings_rover.models.world import World
 from roslings_rover.rover.picture import PATH, draw_body, draw_moving, draw_world
-from roslings_rover.rover.rover import Moment
+from roslings_rover.rover.rover import RoverMoment
 
 FRAME_S = 0.25
 LAST_FRAME_S = 2.0
@@ -27,7 +27,7 @@ def can_draw() -> bool:
     return find_spec("matplotlib") is not None and find_spec("PIL") is not None
 
 
-def gif_of(way: Sequence[Moment], world: World) -> bytes:
+def gif_of(way: Sequence[RoverMoment], world: World) -> bytes:
     """A GIF of the way, in real time, again and again; `way` has one moment at least.
 
     What moves in the world stands where it is in the end.
@@ -41,7 +41,7 @@ def gif_of(way: Sequence[Moment], world: World) -> bytes:
     return file.getvalue()
 
 
-def _steps(way: Sequence[Moment]) -> Iterator[Pose]:
+def _steps(way: Sequence[RoverMoment]) -> Iterator[Pose]:
     """Where it was at the moment of each frame."""
     shown_s = way[0].time_s
     for before, after in zip(way, [*way[1:], None], strict=True):

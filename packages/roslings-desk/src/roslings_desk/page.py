@@ -11,7 +11,7 @@ from nicegui import ui
 from ros2_on_pip.graph.drawing import STYLE as GRAPH_STYLE
 from roslings_desk.bag_bar import BagBar
 from roslings_desk.bag_player import BagPlayer
-from roslings_desk.controls import Notice, Text, button, part, problem_of, told
+from roslings_desk.controls import Notice, PageText, button, part, problem_of, told
 from roslings_desk.hub import Hub
 from roslings_desk.saving import HERE, LAST_S, save
 from roslings_desk.tab import OpenTab, Tab
@@ -35,15 +35,15 @@ def build(
     ui.page_title(f"{tab.title} - roslings desk")
     ui.add_css(variables() + STYLE.read_text("utf-8") + GRAPH_STYLE)
     with part("header"):
-        Text("h1", "roslings desk")
+        PageText("h1", "roslings desk")
         _ways(name, tabs)
-        where = f"bag {bag.path.name}" if bag else f"ROS domain {hub.eye.domain}"
-        Text("p", where, "domain")
+        where = f"bag {bag.path.name}" if bag else f"ROS domain {hub.desk_node.domain}"
+        PageText("p", where, "domain")
         _show_saving(hub)
     if bag:
         BagBar(bag)
     with part("div", "tab"):
-        Text("h2", tab.title)
+        PageText("h2", tab.title)
         _open(OpenTab(hub, shown), tab)
 
 
@@ -52,10 +52,10 @@ def build_for_phone(hub: Hub, tab: Tab) -> None:
     ui.page_title(f"{tab.title} - roslings desk")
     ui.add_css(variables() + STYLE.read_text("utf-8"))
     with part("header"):
-        Text("h1", "roslings desk")
-        Text("p", f"ROS domain {hub.eye.domain}", "domain")
+        PageText("h1", "roslings desk")
+        PageText("p", f"ROS domain {hub.desk_node.domain}", "domain")
     with part("div", "tab for-phone"):
-        Text("h2", tab.title)
+        PageText("h2", tab.title)
         _open(OpenTab(hub), tab)
 
 
@@ -63,7 +63,7 @@ def _ways(here: str, tabs: dict[str, Callable[[], Tab]]) -> None:
     with part("nav", aria_label="Tabs"):
         for name in tabs:
             current = "page" if name == here else None
-            Text("a", name.capitalize(), href=f"./{name}", aria_current=current)
+            PageText("a", name.capitalize(), href=f"./{name}", aria_current=current)
 
 
 def _show_saving(hub: Hub) -> None:
@@ -75,7 +75,7 @@ def _show_saving(hub: Hub) -> None:
 
     trouble = Notice()
     button(f"Save the last {LAST_S:g} s", told(trouble, save_heard))
-    said = Text("p", "", "spoken", aria_live="polite")
+    said = PageText("p", "", "spoken", aria_live="polite")
 
 
 def _open(open_tab: OpenTab, tab: Tab) -> None:

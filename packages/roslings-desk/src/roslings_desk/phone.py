@@ -1,8 +1,8 @@
 """One telephone of the same network may drive: the tab Rover, and nothing else of the desk.
 
 It comes in by a key that stands in a QR code in the terminal. The key is good for one telephone:
-whoever comes first, by a button on the first page, so that a program which only looks at the
-address does not use the key up. All of it ends with the desk.
+whoever comes first, by a button on the first page. So a program which only looks at the address
+does not use the key up. All of it ends with the desk.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from urllib.parse import parse_qs
 
 from ros2_on_pip.network_cards import cards
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from roslings_desk.guard import (
     ENTRANCE,
     App,
@@ -56,7 +56,7 @@ QUESTION = (
 )
 
 
-class NoNetwork(Problem):
+class NoNetwork(CommandProblem):
     """No telephone can reach this computer."""
 
     def __init__(self) -> None:
@@ -66,7 +66,7 @@ class NoNetwork(Problem):
         )
 
 
-class NotOurAddress(Problem):
+class NotOurAddress(CommandProblem):
     """It cannot be listened on."""
 
     def __init__(self, address: str, why: str) -> None:

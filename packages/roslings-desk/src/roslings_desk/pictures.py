@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 
 MOST_PIXELS = 4_096 * 4_096
 PNG, JPEG = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff"
@@ -22,7 +22,7 @@ QUICK = 1
 """Of zlib: a picture is shown once, so time counts more than its size."""
 
 
-class BadPicture(Problem):
+class UnshowableImage(CommandProblem):
     """The message is no picture that can be shown."""
 
     def __init__(self, why: str) -> None:
@@ -57,7 +57,7 @@ ENCODINGS = {
 
 
 @dataclass(frozen=True)
-class Picture:
+class ShownImage:
     """What the page shows."""
 
     address: str
@@ -68,34 +68,34 @@ class Picture:
     """The mean of all values, 0 to 255; None where it is not known."""
 
 
-def picture_of(message: Any) -> Picture:
-    """Of a sensor_msgs/msg/Image or CompressedImage. Raises BadPicture."""
+def picture_of(message: Any) -> ShownImage:
+    """Of a sensor_msgs/msg/Image or CompressedImage. Raises UnshowableImage."""
     return _raw(message) if hasattr(message, "encoding") else _compressed(message)
 
 
-def _raw(message: Any) -> Picture:
+def _raw(message: Any) -> ShownImage:
     encoding = ENCODINGS.get(message.encoding)
     if encoding is None:
         there = ", ".join(ENCODINGS)
-        raise BadPicture(f"its encoding is '{message.encoding}', and known are {there}")
+        raise UnshowableImage(f"its encoding is '{message.encoding}', and known are {there}")
     values = _values(message, encoding)
     shown = values if encoding.kind == "u1" else _as_bytes(values)
     words = f"{message.width} x {message.height}, {message.encoding}"
     mean = float(shown.mean())
-    return Picture(_address("png", png(shown)), words, mean)
+    return ShownImage(_address("png", png(shown)), words, mean)
 
 
 def _values(message: Any, encoding: Encoding) -> NDArray[Any]:
     """height x width, or height x width x 3 (red, green, blue)."""
     wide, high, step = message.width, message.height, message.step
     if not 0 < wide * high <= MOST_PIXELS:
-        raise BadPicture(f"it is {wide} x {high} pixels")
+        raise UnshowableImage(f"it is {wide} x {high} pixels")
     kind = np.dtype(encoding.kind).newbyteorder(">" if message.is_bigendian else "<")
     row_b = wide * encoding.channels * kind.itemsize
     if step < row_b:
-        raise BadPicture(f"its step is {step}, and a row has {row_b} bytes")
+        raise UnshowableImage(f"its step is {step}, and a row has {row_b} bytes")
     if len(message.data) != step * high:
-        raise BadPicture(
+        raise UnshowableImage(
             f"it has {len(message.data)} bytes, and step {step} x height {high} is {step * high}"
         )
     rows = np.frombuffer(bytes(message.data), np.uint8).reshape(high, step)[:, :row_b]
@@ -116,12 +116,12 @@ def _as_bytes(values: NDArray[Any]) -> NDArray[np.uint8]:
     return scaled.astype(np.uint8)
 
 
-def _compressed(message: Any) -> Picture:
+def _compressed(message: Any) -> ShownImage:
     content = bytes(message.data)
     for kind, magic in (("png", PNG), ("jpeg", JPEG)):
         if content.startswith(magic):
-            return Picture(_address(kind, content), f"{message.format}, {len(content)} bytes")
-    raise BadPicture(f"its format is '{message.format}', and its bytes are no PNG and no JPEG")
+            return ShownImage(_address(kind, content), f"{message.format}, {len(content)} bytes")
+    raise UnshowableImage(f"its format is '{message.format}', and its bytes are no PNG and no JPEG")
 
 
 def _address(kind: str, content: bytes) -> str:

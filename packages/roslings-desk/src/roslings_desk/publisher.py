@@ -7,14 +7,14 @@ from types import TracebackType
 from typing import Any
 
 from ros2_on_pip.interfaces import class_of
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.yaml_in import Stamp
 from roslings_desk.hub import Hub
 
 FASTEST_HZ = 1_000.0
 
 
-class BadRate(Problem):
+class BadRate(CommandProblem):
     """What was typed is no rate."""
 
     def __init__(self, typed: str) -> None:
@@ -73,12 +73,12 @@ class Publisher:
 
     def _open(self) -> None:
         if self._publisher is None:
-            node = self._hub.eye.node
+            node = self._hub.desk_node.node
             self._publisher = node.create_publisher(self._cls, self._topic, 10)
 
     def _send(self, message: Any, stamps: list[Stamp]) -> None:
         self._open()
-        node = self._hub.eye.node
+        node = self._hub.desk_node.node
         now = node.get_clock().now().to_msg() if stamps else None
         for stamp in stamps:
             stamp(now)
@@ -87,17 +87,17 @@ class Publisher:
     def _begin(self, message: Any, stamps: list[Stamp], period_s: float) -> None:
         self._end()
         send = lambda: self._send(message, stamps)  # noqa: E731
-        self._timer = self._hub.eye.node.create_timer(period_s, send)
+        self._timer = self._hub.desk_node.node.create_timer(period_s, send)
 
     def _end(self) -> None:
         if self._timer is not None:
-            self._hub.eye.node.destroy_timer(self._timer)
+            self._hub.desk_node.node.destroy_timer(self._timer)
             self._timer = None
 
     def _close(self) -> None:
         self._end()
         if self._publisher is not None:
-            self._hub.eye.node.destroy_publisher(self._publisher)
+            self._hub.desk_node.node.destroy_publisher(self._publisher)
 
 
 def _rate_hz(typed: str) -> float:

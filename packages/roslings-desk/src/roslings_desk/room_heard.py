@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ros2_on_pip.interfaces import UnknownInterface
-from roslings_desk.hub import Heard
+from roslings_desk.hub import SharedSubscription
 from roslings_desk.tab import OpenTab
 from roslings_rover.models.world import World, default_world
 from roslings_rover.rover.room_markers import MARKERS, MOVING, ROOM, world_in
@@ -20,7 +20,7 @@ class RoomHeard:
 
     def __init__(self, open_tab: OpenTab) -> None:
         self._tab = open_tab
-        self._heard: dict[str, Heard] = {}
+        self._heard: dict[str, SharedSubscription] = {}
         self._unknown = False
         """This computer has not the type: the robot is on another one."""
         self._counts = self._counted()
@@ -55,7 +55,7 @@ class RoomHeard:
             self._unknown = True
 
 
-def world_heard(heard: Iterable[Heard]) -> World:
+def world_heard(heard: Iterable[SharedSubscription]) -> World:
     """The room that was heard among other things; the course's own one, where that is none."""
     newest = {each.topic: each.newest() for each in heard if each.type_name == MARKERS}
     room = newest.get(ROOM)

@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.rosbag2.errors import BagError
 from ros2_on_pip.rosbag2.metadata import Topic
-from ros2_on_pip.rosbag2.writing import BagWriter, Plan
-from roslings_desk.hub import Heard, Message
+from ros2_on_pip.rosbag2.writing import BagWriter, BagWriterOptions
+from roslings_desk.hub import Message, SharedSubscription
 from roslings_desk.map_gif import can_draw, gif_of
 from roslings_desk.odometry import ODOM, ODOMETRY, pose_in
 from roslings_desk.room_heard import world_heard
 from roslings_rover.models.world import World
-from roslings_rover.rover.rover import Moment
+from roslings_rover.rover.rover import RoverMoment
 
 LAST_S = 20.0
 NAME = "desk_%Y-%m-%d_%H-%M-%S"
@@ -25,7 +25,7 @@ HERE = Path.cwd()
 """The folder in which the desk was started; it may be gone later."""
 
 
-class NothingHeard(Problem):
+class NoMessagesToSave(CommandProblem):
     """There is nothing to save."""
 
     def __init__(self) -> None:
@@ -35,7 +35,7 @@ class NothingHeard(Problem):
         )
 
 
-class CannotSave(Problem):
+class CannotSaveBag(CommandProblem):
     """The bag cannot be written."""
 
     def __init__(self, error: Exception) -> None:
@@ -62,19 +62,19 @@ class Saved:
         return f"Saved in {self.folder}. Messages: {topics}.{cut}{self.map_words}"
 
 
-def save(heard: Sequence[Heard], place: Path) -> Saved:
-    """Write a new bag in the folder `place`. Raises NothingHeard, CannotSave."""
+def save(heard: Sequence[SharedSubscription], place: Path) -> Saved:
+    """Write a new bag in the folder `place`. Raises NoMessagesToSave, CannotSaveBag."""
     now_s, now_ns = time.monotonic(), time.time_ns()
     begin_s = now_s - LAST_S
     kept = {each: [m for m in each.after(0) if m.came_s >= begin_s] for each in heard}
     kept = {each: messages for each, messages in kept.items() if messages}
     if not kept:
-        raise NothingHeard
+        raise NoMessagesToSave
     folder = _new(place)
     try:
         _write(folder, kept, now_ns - round(now_s * 1e9))
     except BagError as error:
-        raise CannotSave(error) from error
+        raise CannotSaveBag(error) from error
     words = _save_map(folder, kept, world_heard(heard))
     cut_s = {
         each.topic: now_s - messages[0].came_s
@@ -85,11 +85,11 @@ def save(heard: Sequence[Heard], place: Path) -> Saved:
     return Saved(folder, counts, cut_s, words)
 
 
-def _save_map(folder: Path, kept: dict[Heard, list[Message]], world: World) -> str:
-    """Beside the bag, where the robot said where it was. Raises CannotSave."""
+def _save_map(folder: Path, kept: dict[SharedSubscription, list[Message]], world: World) -> str:
+    """Beside the bag, where the robot said where it was. Raises CannotSaveBag."""
     heard = next((each for each in kept if (each.topic, each.type_name) == (ODOM, ODOMETRY)), None)
     places = [(m.came_s, pose_in(heard.read(m))) for m in kept[heard]] if heard else []
-    way = [Moment(came_s, pose) for came_s, pose in places if pose]
+    way = [RoverMoment(came_s, pose) for came_s, pose in places if pose]
     if not way:
         return ""
     if not can_draw():
@@ -98,7 +98,7 @@ def _save_map(folder: Path, kept: dict[Heard, list[Message]], world: World) -> s
     try:
         file.write_bytes(gif_of(way, world))
     except OSError as error:
-        raise CannotSave(error) from error
+        raise CannotSaveBag(error) from error
     return f" The map: {file}"
 
 
@@ -109,9 +109,9 @@ def _new(place: Path) -> Path:
     return next(each for each in tried if not each.exists())
 
 
-def _write(folder: Path, kept: dict[Heard, list[Message]], zero_ns: int) -> None:
+def _write(folder: Path, kept: dict[SharedSubscription, list[Message]], zero_ns: int) -> None:
     """All messages in the order in which they came. Raises BagError."""
-    writer = BagWriter(folder, Plan())
+    writer = BagWriter(folder, BagWriterOptions())
     try:
         for heard in kept:
             writer.add_topic(Topic(heard.topic, heard.type_name))

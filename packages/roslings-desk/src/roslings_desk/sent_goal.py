@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ros2_on_pip.goal import STATUS
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 from roslings_desk.asking import answer_of, in_time, is_true
 from roslings_desk.hub import Hub
 
@@ -16,7 +16,7 @@ ENDS = {"SUCCEEDED": "it succeeded", "CANCELED": CANCELED, "ABORTED": "the serve
 """How a goal ends, by its name in action_msgs/msg/GoalStatus, in plain words."""
 
 
-class NoActionServer(Problem):
+class NoActionServer(CommandProblem):
     """No node serves the action."""
 
     def __init__(self, action: str, there: Iterable[str]) -> None:
@@ -26,14 +26,14 @@ class NoActionServer(Problem):
         )
 
 
-class Rejected(Problem):
+class Rejected(CommandProblem):
     """The server does not take the goal."""
 
     def __init__(self, action: str) -> None:
         super().__init__(f"The server of '{action}' rejected this goal. It did not start.")
 
 
-class NotCanceled(Problem):
+class NotCanceled(CommandProblem):
     """The server goes on."""
 
     def __init__(self, action: str) -> None:
@@ -59,12 +59,12 @@ class SentGoal:
     async def follow(self, goal: Any) -> tuple[str, Any]:
         """Send it: how it ends in plain words, and its result.
 
-        Raises NoAnswer, CallFailed, Rejected.
+        Raises ServiceSilent, CallFailed, Rejected.
         """
         from rclpy.action import ActionClient
 
         def connect() -> Any:
-            return ActionClient(self._hub.eye.node, self._cls, self.action)
+            return ActionClient(self._hub.desk_node.node, self._cls, self.action)
 
         client = await asyncio.wrap_future(self._hub.do(connect))
         try:
@@ -92,7 +92,10 @@ class SentGoal:
         self.feedback_count += 1
 
     async def cancel(self) -> None:
-        """Ask the server to end it before its end. Raises NoAnswer, CallFailed, NotCanceled."""
+        """Ask the server to end it before its end.
+
+        Raises ServiceSilent, CallFailed, NotCanceled.
+        """
         asked = answer_of(self._hub, self.action, self._handle.cancel_goal_async)
         answer = await in_time(self.action, asked)
         if not answer.goals_canceling and not self.is_over:

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from roslings_desk.bag_player import BagPlayer, playing
 from roslings_desk.door import door
-from roslings_desk.ending import Ending, ending
+from roslings_desk.ending import SignalHandler, ending
 from roslings_desk.guard import ENTRANCE, App, Guard
 from roslings_desk.hub import Hub
 from roslings_desk.phone import Doors, PhoneGuard, listening_for_phone, own_address
@@ -28,7 +28,7 @@ FIRST_TAB = "rover"
 LEAVES_WITHIN_S = 1
 
 
-class PortTaken(Problem):
+class DeskPortTaken(CommandProblem):
     """Something else listens there."""
 
     def __init__(self, port: int, why: str) -> None:
@@ -37,14 +37,14 @@ class PortTaken(Problem):
         )
 
 
-class NoSuchTab(Problem):
+class NoSuchDeskTab(CommandProblem):
     """The desk has no tab of this name."""
 
     def __init__(self, name: str, there: Sequence[str]) -> None:
         super().__init__(f"The desk has no tab '{name}'. It has: {', '.join(there)}")
 
 
-class NoWords(Problem):
+class NoWords(CommandProblem):
     """The tab takes no words."""
 
     def __init__(self, tab: str, words: Sequence[str]) -> None:
@@ -55,7 +55,7 @@ class NoWords(Problem):
 
 
 @dataclass(frozen=True)
-class Wish:
+class DeskOptions:
     """How the desk is to be opened."""
 
     tab: str = FIRST_TAB
@@ -84,16 +84,16 @@ class Sockets:
     phone: socket.socket | None
 
 
-def run(wish: Wish) -> None:
+def run(wish: DeskOptions) -> None:
     """Serve until Ctrl-C.
 
-    Raises PortTaken, NoSuchTab, NoWords, NoNetwork, NotOurAddress, and what Eye and BagPlayer
-    raise.
+    Raises DeskPortTaken, NoSuchDeskTab, NoWords, NoNetwork, NotOurAddress, and what DirectNode and
+    BagPlayer raise.
     """
     from roslings_desk.tab import tabs
 
     if wish.tab not in (there := tabs()):
-        raise NoSuchTab(wish.tab, list(there))
+        raise NoSuchDeskTab(wish.tab, list(there))
     if wish.shown and wish.tab not in TAKE_WORDS:
         raise NoWords(wish.tab, wish.shown)
     bag: AbstractContextManager[BagPlayer | None]
@@ -117,7 +117,7 @@ def _own_storage() -> Iterator[None]:
 
 
 @contextmanager
-def _sockets(wish: Wish) -> Iterator[Sockets]:
+def _sockets(wish: DeskOptions) -> Iterator[Sockets]:
     with _listening(wish.port) as own:
         if not wish.phone:
             yield Sockets(own, None)
@@ -134,11 +134,13 @@ def _listening(port: int) -> Iterator[socket.socket]:
             listener.bind((HOST, port))
             listener.listen()  # who comes before the pages are ready waits
         except (OSError, OverflowError) as error:
-            raise PortTaken(port, getattr(error, "strerror", None) or str(error)) from error
+            raise DeskPortTaken(port, getattr(error, "strerror", None) or str(error)) from error
         yield listener
 
 
-def _serve(wish: Wish, sockets: Sockets, hub: Hub, bag: BagPlayer | None, ends: Ending) -> None:
+def _serve(
+    wish: DeskOptions, sockets: Sockets, hub: Hub, bag: BagPlayer | None, ends: SignalHandler
+) -> None:
     import uvicorn
 
     from roslings_desk.application import application
@@ -174,7 +176,7 @@ def _phone_guard(app: App, listener: socket.socket | None) -> PhoneGuard | None:
     return PhoneGuard(app, address, port, _say_phone)
 
 
-def _tell(wish: Wish, file: Path) -> None:
+def _tell(wish: DeskOptions, file: Path) -> None:
     print(f"The desk is open. Its page, for a browser of yours: {file.as_uri()}")
     print("Nobody else can read that file: a key is in it. Ctrl-C here closes the desk.")
     if wish.allowed:

@@ -5,7 +5,7 @@
 
         def show(self, open_tab: OpenTab) -> None:
             self.heard = open_tab.hear("/battery", "std_msgs/msg/Float32")
-            self.value = Text("p")
+            self.value = PageText("p")
 
         def refresh(self) -> None:
             message = self.heard.newest()
@@ -24,7 +24,7 @@ from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Protocol
 
-from roslings_desk.hub import Heard, Hub
+from roslings_desk.hub import Hub, SharedSubscription
 
 GROUP = "roslings.desk_tab"
 BUILT_IN = {
@@ -50,17 +50,17 @@ class OpenTab:
         """What was typed behind the tab's name: `./roslings desk image /image`."""
         self.ends = ExitStack()
         """What is to be ended with the tab."""
-        self._heard: list[Heard] = []
+        self._heard: list[SharedSubscription] = []
         self.ends.callback(self.leave_all)
         hub.closing.add(self.close)
 
-    def hear(self, topic: str, type_name: str) -> Heard:
+    def hear(self, topic: str, type_name: str) -> SharedSubscription:
         """Listen to a topic as long as this tab is open. Raises UnknownInterface."""
         heard = self.hub.hear(topic, type_name)
         self._heard.append(heard)
         return heard
 
-    def leave(self, heard: Heard) -> None:
+    def leave(self, heard: SharedSubscription) -> None:
         """This tab does not show it any more."""
         self._heard.remove(heard)
         self.hub.leave(heard)
@@ -87,7 +87,7 @@ class Tab(Protocol):
         """Make what the page holds, and open what it needs."""
 
     def refresh(self) -> None:
-        """Draw the newest. Raises Problem, whose words then stand on the page."""
+        """Draw the newest. Raises CommandProblem, whose words then stand on the page."""
 
 
 def tabs() -> dict[str, Callable[[], Tab]]:

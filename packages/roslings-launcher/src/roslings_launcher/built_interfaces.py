@@ -14,9 +14,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from roslings_launcher import constraints
-from roslings_launcher.errors import Trouble
+from roslings_launcher.errors import LauncherTrouble
 from roslings_launcher.interface_sources import files_in
-from roslings_launcher.machine import Machine, require_wheels
+from roslings_launcher.machine import WheelPlatform, require_wheels
 
 FOLDER = "packages/*/src/*/interfaces/built"
 PYTHON = "python"
@@ -27,7 +27,7 @@ _RUNTIME = "ros-"
 
 
 @dataclass(frozen=True)
-class Origin:
+class InterfacesOrigin:
     """What a package of types was built from."""
 
     sources: str
@@ -41,7 +41,7 @@ class BuiltPackage:
     """The archive of one package."""
 
     archive: Path
-    origin: Origin
+    origin: InterfacesOrigin
     digest: str
     """Of the archive."""
     made_with: str
@@ -77,7 +77,7 @@ def in_folder(folder: Path, package: str) -> BuiltPackage | None:
     archive = archive_of(folder, package)
     try:
         told = json.loads(_told_of(archive).read_text(encoding="utf-8"))
-        origin = Origin(told["sources"], told["ros"])
+        origin = InterfacesOrigin(told["sources"], told["ros"])
         return BuiltPackage(archive, origin, told["archive"], told["made_with"])
     except (OSError, ValueError, KeyError):
         return None
@@ -98,20 +98,20 @@ def fitting(root: Path, source: Path) -> BuiltPackage | None:
     return next((each for each in found if each and each.origin == here and each.is_whole), None)
 
 
-def run_on(machine: Machine) -> bool:
+def run_on(machine: WheelPlatform) -> bool:
     """They are made for the machines that the wheels of ROS are made for."""
     try:
         require_wheels(machine)
-    except Trouble:
+    except LauncherTrouble:
         return False
     return True
 
 
-def origin_of(source: Path, pins: Path) -> Origin:
+def origin_of(source: Path, pins: Path) -> InterfacesOrigin:
     """Of the package in `source`, as it now is, on the ROS that `pins` names."""
     files = (f"{name} {digest_of_file(file)}" for name, file in files_in(source) if _counts(file))
     ros = (line for line in constraints.of_groups(pins, ["ros"]) if line.startswith(_RUNTIME))
-    return Origin(_digest_of(files), _digest_of(ros))
+    return InterfacesOrigin(_digest_of(files), _digest_of(ros))
 
 
 def digest_of_file(file: Path) -> str:

@@ -1,7 +1,7 @@
 """The packages' bytecode, written at set-up.
 
-A build or a node in a sandbox sees the environment read-only: a module that is not compiled yet
-would be compiled in each of them again. setuptools alone is 0.4 s of every build.
+A build or a node in a sandbox sees the environment read-only. A module that is not compiled yet
+would be compiled in each of them again. `setuptools` alone is 0.4 s of every build.
 """
 
 import os

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from roslings_launcher.environment import EnvironmentRequest, make_ready
-from roslings_launcher.errors import Trouble, of_the_disk, say
+from roslings_launcher.errors import LauncherTrouble, of_the_disk, say
 from roslings_launcher.paths import absolute_variables
 from roslings_launcher.pins import write_pins
-from roslings_launcher.place import Place
+from roslings_launcher.place import CoursePlace
 from roslings_launcher.wheels import fill
 
 ROOT = Path(__file__).resolve().parents[4]
@@ -19,7 +19,7 @@ def main(words: Sequence[str]) -> int:
     absolute_variables()
     try:
         return _run(words)
-    except Trouble as trouble:
+    except LauncherTrouble as trouble:
         say(str(trouble))
         return 2
     except OSError as error:
@@ -35,9 +35,9 @@ def _run(words: Sequence[str]) -> int:
     if verb == "ready":
         make_ready(ROOT, EnvironmentRequest(command=rest[0], groups=tuple(rest[1:])))
     elif verb == "wheels":
-        fill(Place(ROOT), rest)
+        fill(CoursePlace(ROOT), rest)
     elif verb == "pins":
-        write_pins(Place(ROOT), upgrade="--upgrade" in rest)
+        write_pins(CoursePlace(ROOT), upgrade="--upgrade" in rest)
     return 0
 
 

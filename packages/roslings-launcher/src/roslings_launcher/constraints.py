@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings_launcher.errors import Trouble
+from roslings_launcher.errors import LauncherTrouble
 
 # Run by the environment's Python, which knows what a marker means there and what is installed.
 # The pip that it asks is itself pinned.
@@ -92,11 +92,13 @@ def exact(file: Path, group: str) -> dict[str, str]:
     """Name -> version of a group whose pins hold for every Python.
 
     Raises:
-        Trouble: the group is empty.
+        LauncherTrouble: the group is empty.
     """
     found = dict(line.split("==") for line in of_groups(file, [group]))
     if not found:
-        raise Trouble(f"constraints.txt pins nothing for {group}.", "Write it: ./roslings pins")
+        raise LauncherTrouble(
+            f"constraints.txt pins nothing for {group}.", "Write it: ./roslings pins"
+        )
     return found
 
 
@@ -144,6 +146,8 @@ def _told(command: Sequence[str | Path], environment: dict[str, str], said: str)
     )
     if done.returncode != 0:
         last = (done.stderr.strip().splitlines() or ["nothing said"])[-1]
-        raise Trouble(f"constraints.txt could not be read: {last}", "Write it: ./roslings pins")
+        raise LauncherTrouble(
+            f"constraints.txt could not be read: {last}", "Write it: ./roslings pins"
+        )
     found: list[str] = json.loads(done.stdout)
     return found

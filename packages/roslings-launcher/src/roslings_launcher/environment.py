@@ -10,14 +10,14 @@ from pathlib import Path
 
 from roslings_launcher import sizes
 from roslings_launcher.bytecode import compile_packages
-from roslings_launcher.errors import Trouble, say, wrapped
+from roslings_launcher.errors import LauncherTrouble, say, wrapped
 from roslings_launcher.installing import TOOLS, Installer
 from roslings_launcher.interfaces import GENERATORS, GROUP, Interfaces
 from roslings_launcher.lock import locked
 from roslings_launcher.machine import require_wheels, this_machine
 from roslings_launcher.packages import forget_damaged
-from roslings_launcher.place import Place, require_usable
-from roslings_launcher.record import Record
+from roslings_launcher.place import CoursePlace, require_usable
+from roslings_launcher.record import EnvironmentRecord
 from roslings_launcher.seeds import interpreter
 from roslings_launcher.sourced import SourcedRos, find_sourced
 from roslings_launcher.virtual import Virtual
@@ -38,13 +38,13 @@ def make_ready(root: Path, request: EnvironmentRequest) -> None:
     """Afterwards the environment in `root` holds the groups of `request`.
 
     Raises:
-        Trouble: it cannot be made here; an environment that stood before still stands.
+        LauncherTrouble: it cannot be made here; an environment that stood before still stands.
     """
     ros = find_sourced(os.environ)
     require_usable(root)
     if not ros:
         require_wheels(this_machine())
-    work = _Work(Place(root, ".venv-apt" if ros else ".venv"), request, ros, _wheels())
+    work = _Work(CoursePlace(root, ".venv-apt" if ros else ".venv"), request, ros, _wheels())
     with locked(work.place.lock):
         work.do()
 
@@ -55,7 +55,7 @@ def _wheels() -> Path | None:
         return None
     folder = Path(named).absolute()
     if not any(folder.glob("*.whl")):
-        raise Trouble(
+        raise LauncherTrouble(
             f"ROSLINGS_WHEELS names a folder without wheels: {folder}",
             "Fill it on a machine with a network: ./roslings wheels DIR",
         )
@@ -64,14 +64,14 @@ def _wheels() -> Path | None:
 
 @dataclass(frozen=True)
 class _Work:
-    place: Place
+    place: CoursePlace
     request: EnvironmentRequest
     ros: SourcedRos | None
     wheels: Path | None
 
     @property
-    def record(self) -> Record:
-        return Record(self.place)
+    def record(self) -> EnvironmentRecord:
+        return EnvironmentRecord(self.place)
 
     @property
     def virtual(self) -> Virtual:

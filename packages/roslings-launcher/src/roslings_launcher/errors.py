@@ -6,7 +6,7 @@ import textwrap
 from pathlib import Path
 
 
-class Trouble(Exception):
+class LauncherTrouble(Exception):
     """Something the user must know: one sentence, then what to do. Ends with exit code 2."""
 
     def __init__(self, what: str, *steps: str) -> None:
@@ -18,19 +18,19 @@ class Trouble(Exception):
         return "\n".join([wrapped(f"roslings: {self.what}"), *map(_step, self.steps)])
 
 
-def disk_full(near: Path) -> Trouble:
+def disk_full(near: Path) -> LauncherTrouble:
     """The trouble of a full disk that `near` lies on."""
-    return Trouble(
+    return LauncherTrouble(
         f"The disk is full: {near}",
         "Free about 500 MB (look with: df -h .), and run the same command again.",
     )
 
 
-def of_the_disk(error: OSError, root: Path) -> Trouble:
+def of_the_disk(error: OSError, root: Path) -> LauncherTrouble:
     """What the system refused while the environment in `root` was being changed."""
     if error.errno in (errno.ENOSPC, errno.EDQUOT):
         return disk_full(root)
-    return Trouble(
+    return LauncherTrouble(
         f"{error.strerror or error}: {error.filename or root}",
         "Give the folder to your own user with chown, or take a copy in your home folder.",
     )

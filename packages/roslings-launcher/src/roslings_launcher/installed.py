@@ -26,7 +26,7 @@ from typing import NoReturn
 from roslings_launcher import __version__
 from roslings_launcher.cli import begin
 from roslings_launcher.cli.table import GROUP
-from roslings_launcher.errors import Trouble, of_the_disk, say
+from roslings_launcher.errors import LauncherTrouble, of_the_disk, say
 from roslings_launcher.machine import require_unix, this_machine
 from roslings_launcher.place import require_usable
 from roslings_launcher.readiness import readiness
@@ -63,7 +63,7 @@ def main() -> int:
     """Run the command of this process; its exit code."""
     try:
         return _run(sys.argv[1:])
-    except Trouble as trouble:
+    except LauncherTrouble as trouble:
         say(str(trouble))
     except OSError as error:
         say(str(of_the_disk(error, Path())))
@@ -86,7 +86,9 @@ def _run(words: Sequence[str]) -> int:
     if not words or words[0] in HELP:
         print(_WELCOME)
         return 0
-    raise Trouble("There is no course in this folder or above it.", "Make one: roslings new")
+    raise LauncherTrouble(
+        "There is no course in this folder or above it.", "Make one: roslings new"
+    )
 
 
 # --- the course's folder -----------------------------------------------------------------------
@@ -108,10 +110,10 @@ def _new(words: Sequence[str]) -> int:
 def unpack(folder: Path) -> None:
     """Put the course into the new folder `folder`, whole or not at all.
 
-    Raises Trouble where `folder` holds something, or the course would not run from there.
+    Raises LauncherTrouble where `folder` holds something, or the course would not run from there.
     """
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise Trouble(
+        raise LauncherTrouble(
             f"{folder} holds something already, and nothing is ever overwritten.",
             "Give a new folder: roslings new DIR",
         )
@@ -131,7 +133,7 @@ def unpack(folder: Path) -> None:
 def _fill(folder: Path) -> None:
     archive = HERE / ARCHIVE
     if not archive.is_file():
-        raise Trouble(
+        raise LauncherTrouble(
             "This copy of roslings carries no course: it was not installed from a wheel.",
             "In a clone, use ./roslings. Elsewhere: pip install roslings",
         )
@@ -185,7 +187,7 @@ def _run_here(words: Sequence[str]) -> int:
     try:
         begin()
     except ModuleNotFoundError as error:
-        raise Trouble(
+        raise LauncherTrouble(
             f"ROSLINGS_COURSE asks for this environment, and it has no {error.name}.",
             f"pip install 'roslings[ros,colcon,check]=={__version__}'",
             "Or leave ROSLINGS_COURSE away: each course has an environment of its own.",

@@ -18,7 +18,7 @@ from pathlib import Path
 from roslings_launcher import constraints
 from roslings_launcher.packages import fetched, installed
 from roslings_launcher.pip import Pip
-from roslings_launcher.place import Place
+from roslings_launcher.place import CoursePlace
 from roslings_launcher.progress import DownloadLine, going_on
 from roslings_launcher.seeds import find_seed
 from roslings_launcher.virtual import Virtual
@@ -32,7 +32,7 @@ _AT_ONCE = 25  # packages that one pip fetches: what it has fetched is kept when
 class Installer:
     """Installs groups into `virtual`, as the constraints of `place` pin them."""
 
-    place: Place
+    place: CoursePlace
     virtual: Virtual
     wheels: Path | None = None  # the only source of packages, where given
     sees_path: bool = False
@@ -41,7 +41,7 @@ class Installer:
         """The pinned pip and setuptools are in the environment.
 
         Raises:
-            Trouble: there is no pip on this machine, or the pinned one does not come.
+            LauncherTrouble: there is no pip on this machine, or the pinned one does not come.
         """
         pins = constraints.exact(self.place.constraints, TOOLS)
         have = installed(self.virtual.site)
@@ -115,7 +115,7 @@ class Installer:
         """Nothing where the only source of packages has all of `packages`.
 
         Raises:
-            Trouble: one is missing.
+            LauncherTrouble: one is missing.
         """
         drain(self.pip(), ["install", "--dry-run", "--no-deps", *packages], self.place.root)
 

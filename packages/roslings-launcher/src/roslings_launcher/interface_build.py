@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings_launcher.errors import Trouble
-from roslings_launcher.place import Place
+from roslings_launcher.errors import LauncherTrouble
+from roslings_launcher.place import CoursePlace
 from roslings_launcher.virtual import Virtual
 
 # The wheels were made in a container, and some of their files tell CMake where its Python was.
@@ -38,7 +38,7 @@ class Headers:
 class InterfaceBuild:
     """Builds for `virtual`, the environment of `place`."""
 
-    place: Place
+    place: CoursePlace
     virtual: Virtual
     sourced: bool
     """A ROS is sourced, and brings what the build needs."""
@@ -47,17 +47,17 @@ class InterfaceBuild:
         """Nothing where C and C++ can be compiled.
 
         Raises:
-            Trouble: something is missing.
+            LauncherTrouble: something is missing.
         """
         if not (_program("CC", "cc", "gcc", "clang") and _program("CXX", "c++", "g++", "clang++")):
-            raise Trouble(
+            raise LauncherTrouble(
                 "Message types of one's own are compiled, and this computer has no C and C++ "
                 "compiler.",
                 "On Ubuntu and Debian: sudo apt install build-essential",
                 "Then run the same command again.",
             )
         if self.sourced and not _sourced_generators():
-            raise Trouble(
+            raise LauncherTrouble(
                 "The ROS of this terminal has no generators of message types.",
                 "sudo apt install ros-jazzy-rosidl-default-generators",
             )
@@ -66,12 +66,12 @@ class InterfaceBuild:
         """Nothing where the C headers of the environment's Python are there.
 
         Raises:
-            Trouble: they are not.
+            LauncherTrouble: they are not.
         """
         header = Path(self.headers().python, "Python.h")
         if not header.is_file():
             version = header.parent.name
-            raise Trouble(
+            raise LauncherTrouble(
                 f"The C headers of this Python are missing: {header}",
                 f"On Ubuntu and Debian: sudo apt install {version}-dev",
                 "Or take another Python: ROSLINGS_PYTHON=/path/to/python3.12 ./roslings",
@@ -97,7 +97,7 @@ class InterfaceBuild:
         """Those of the environment's Python.
 
         Raises:
-            Trouble: it has no numpy.
+            LauncherTrouble: it has no numpy.
         """
         done = subprocess.run(
             [self.virtual.python, "-c", _ASK],
@@ -109,7 +109,7 @@ class InterfaceBuild:
             check=False,
         )
         if done.returncode != 0:
-            raise Trouble(
+            raise LauncherTrouble(
                 "The environment's Python does not find numpy.",
                 f"Make the environment anew: rm -rf {self.place.name}, and run this again.",
             )
@@ -119,7 +119,7 @@ class InterfaceBuild:
         """Build the packages in `sources`; colcon's install folder, in `scratch`.
 
         Raises:
-            Trouble: the build failed.
+            LauncherTrouble: the build failed.
         """
         for source in sources:
             shutil.copytree(source, scratch / "src" / source.name)
@@ -136,7 +136,7 @@ class InterfaceBuild:
         if done.returncode != 0:
             log = self.place.root / f"{self.place.name}.interfaces.log"
             log.write_text(done.stdout, encoding="utf-8")
-            raise Trouble(
+            raise LauncherTrouble(
                 f"The message types could not be built: {_complaint(done.stdout)}",
                 f"Read the last lines of {log.name}, and run the same command again.",
             )

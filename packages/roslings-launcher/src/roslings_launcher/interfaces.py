@@ -1,8 +1,8 @@
 """The course's own message types, kept with the environment.
 
 On the wheels they come built with the course, and are put into the environment itself, as the types
-of a wheel are. What does not fit is built here, once; and so is all beside a sourced ROS, where it
-lies in the folder `overlay`, which `./roslings` and `setup.bash` add to the paths.
+of a wheel are. What does not fit is built here, once. So is all beside a sourced ROS. There it lies
+in the folder `overlay`, which `./roslings` and `setup.bash` add to the paths.
 """
 
 import hashlib
@@ -19,7 +19,7 @@ from roslings_launcher.errors import say
 from roslings_launcher.interface_build import InterfaceBuild
 from roslings_launcher.interface_sources import files_of, packages_of
 from roslings_launcher.machine import this_machine
-from roslings_launcher.place import Place
+from roslings_launcher.place import CoursePlace
 from roslings_launcher.progress import going_on
 from roslings_launcher.virtual import Virtual
 
@@ -36,7 +36,7 @@ _STAMP = "interfaces.stamp"
 class Interfaces:
     """The packages of types in the course of `place`, and their place in `virtual`."""
 
-    place: Place
+    place: CoursePlace
     virtual: Virtual
     sourced: bool
     """A ROS is sourced, and brings what the build needs."""
@@ -87,7 +87,7 @@ class Interfaces:
         """Afterwards they stand.
 
         Raises:
-            Trouble: some must be built, and there is no compiler, or the build failed.
+            LauncherTrouble: some must be built, and there is no compiler, or the build failed.
         """
         if not self.sources or self.stand:
             return

@@ -10,7 +10,7 @@ import sys
 import sysconfig
 from dataclasses import dataclass
 
-from roslings_launcher.errors import Trouble
+from roslings_launcher.errors import LauncherTrouble
 
 OLDEST_GLIBC = (2, 28)
 PYTHONS = ((3, 10), (3, 14))
@@ -24,7 +24,7 @@ _CONTAINER_OF_APT = (_BUILD.format(on=" --build-arg BASE=ros:jazzy"), _RUN)
 
 
 @dataclass(frozen=True)
-class Machine:
+class WheelPlatform:
     """What decides whether a wheel fits: made by `this_machine`, or by a test."""
 
     system: str  # "Linux", "Darwin", "Windows"
@@ -35,9 +35,9 @@ class Machine:
     cpython: bool  # the usual build: not PyPy, not free-threaded
 
 
-def this_machine() -> Machine:
+def this_machine() -> WheelPlatform:
     """The machine and the Python that this runs on."""
-    return Machine(
+    return WheelPlatform(
         system=platform.system(),
         architecture=platform.machine(),
         bits=struct.calcsize("P") * 8,
@@ -56,32 +56,32 @@ def _glibc() -> tuple[int, ...]:
     return tuple(int(n) for n in words[-1].split(".") if n.isdigit()) if words else ()
 
 
-def require_unix(machine: Machine) -> None:
+def require_unix(machine: WheelPlatform) -> None:
     """Nothing where scripts of a shell run.
 
     Raises:
-        Trouble: this is Windows itself, not the Linux in it.
+        LauncherTrouble: this is Windows itself, not the Linux in it.
     """
     if machine.system == "Windows":
-        raise Trouble("roslings does not run on Windows itself.", _WSL, *_CONTAINER)
+        raise LauncherTrouble("roslings does not run on Windows itself.", _WSL, *_CONTAINER)
 
 
-def require_wheels(machine: Machine) -> None:
+def require_wheels(machine: WheelPlatform) -> None:
     """Nothing where the ROS wheels fit `machine`; else the other way to take.
 
     Raises:
-        Trouble: there are no wheels for this machine.
+        LauncherTrouble: there are no wheels for this machine.
     """
     x86 = machine.architecture in ("x86_64", "AMD64")
     if machine.system != "Linux":
         way = _CONTAINER if x86 else _CONTAINER_OF_APT
-        raise Trouble(f"There are no ROS wheels for {_named(machine.system)}.", *way)
+        raise LauncherTrouble(f"There are no ROS wheels for {_named(machine.system)}.", *way)
     if not x86:
-        raise Trouble(
+        raise LauncherTrouble(
             f"There are no ROS wheels for {machine.architecture}.", _APT, *_CONTAINER_OF_APT
         )
     if machine.bits != 64:
-        raise Trouble("This Python has 32 bits, and the ROS wheels 64.", _APT, *_CONTAINER)
+        raise LauncherTrouble("This Python has 32 bits, and the ROS wheels 64.", _APT, *_CONTAINER)
     _require_libc(machine.glibc)
     _require_python(machine)
 
@@ -92,22 +92,24 @@ def _named(system: str) -> str:
 
 def _require_libc(glibc: tuple[int, ...]) -> None:
     if not glibc:
-        raise Trouble(
+        raise LauncherTrouble(
             "The ROS wheels need glibc, and this Linux has another C library.", *_CONTAINER
         )
     if glibc < OLDEST_GLIBC:
-        raise Trouble(
+        raise LauncherTrouble(
             f"The ROS wheels need glibc {_dotted(OLDEST_GLIBC)} or newer, and this Linux has "
             f"{_dotted(glibc)}.",
             *_CONTAINER,
         )
 
 
-def _require_python(machine: Machine) -> None:
+def _require_python(machine: WheelPlatform) -> None:
     if not machine.cpython:
-        raise Trouble("The ROS wheels need the usual CPython, and this is another build.", _OTHER)
+        raise LauncherTrouble(
+            "The ROS wheels need the usual CPython, and this is another build.", _OTHER
+        )
     if not PYTHONS[0] <= machine.python <= PYTHONS[1]:
-        raise Trouble(
+        raise LauncherTrouble(
             f"The ROS wheels need Python {_dotted(PYTHONS[0])} to {_dotted(PYTHONS[1])}, and this "
             f"is {_dotted(machine.python)}.",
             _OTHER,

@@ -1,8 +1,7 @@
 """Folders that the environment names become absolute here, before anything else is done.
 
-A command works in several processes, and some of these stand in another folder: pip in the
-course's, the measuring process in that of its run. A path that is relative would lead to another
-place there.
+A command works in several processes. Some of these stand in another folder: pip in the course's,
+the measuring process in that of its run. A path that is relative would lead to another place there.
 """
 
 import os

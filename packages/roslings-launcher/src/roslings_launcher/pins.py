@@ -15,10 +15,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings_launcher import constraints, groups, sizes
-from roslings_launcher.errors import Trouble, say
+from roslings_launcher.errors import LauncherTrouble, say
 from roslings_launcher.installing import Installer, drain
 from roslings_launcher.packages import normal
-from roslings_launcher.place import Place
+from roslings_launcher.place import CoursePlace
 from roslings_launcher.seeds import interpreter, other_pythons
 from roslings_launcher.virtual import Virtual
 
@@ -30,11 +30,11 @@ _HEADER = """\
 _MINORS = (10, 11, 12, 13, 14)
 
 
-def write_pins(place: Place, upgrade: bool) -> None:
+def write_pins(place: CoursePlace, upgrade: bool) -> None:
     """Pins every package of every group of `place`, then measures what each group downloads.
 
     Raises:
-        Trouble: the groups do not go together, or the index does not answer.
+        LauncherTrouble: the groups do not go together, or the index does not answer.
     """
     with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
         folder = Path(scratch).resolve()
@@ -47,7 +47,7 @@ def write_pins(place: Place, upgrade: bool) -> None:
     sizes.FILE.write_text(f"{table}\n", encoding="utf-8")
 
 
-def _uv(place: Place, folder: Path) -> str:
+def _uv(place: CoursePlace, folder: Path) -> str:
     if found := shutil.which("uv"):
         return found
     installer = Installer(place, Virtual(folder))
@@ -61,7 +61,7 @@ def _uv(place: Place, folder: Path) -> str:
 class _Pinning:
     """Asks uv for one set of pins, and then which of them each group needs."""
 
-    place: Place
+    place: CoursePlace
     uv: str
     scratch: Path
 
@@ -91,7 +91,7 @@ class _Pinning:
             check=False,
         )
         if done.returncode != 0:
-            raise Trouble(f"Could not be pinned.\n{done.stderr}", "Mend pyproject.toml.")
+            raise LauncherTrouble(f"Could not be pinned.\n{done.stderr}", "Mend pyproject.toml.")
         return [pin.requirement for pin in constraints.read(pins)]
 
 
@@ -117,7 +117,7 @@ def _pythons() -> Iterator[tuple[str, str]]:
                 break
 
 
-def _measured(place: Place, virtual: Virtual, python: str) -> dict[str, float]:
+def _measured(place: CoursePlace, virtual: Virtual, python: str) -> dict[str, float]:
     """Group -> megabytes that it adds to the groups before it."""
     say(f"Measuring what the groups download on {python}")
     virtual.make(python, sees_system=False)

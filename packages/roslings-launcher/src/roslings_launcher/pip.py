@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings_launcher.errors import Trouble, disk_full
+from roslings_launcher.errors import LauncherTrouble, disk_full
 
 # Settings of the user's own shell that would send packages elsewhere than into the environment.
 _LEADING_ASTRAY = ("PIP_TARGET", "PIP_PREFIX", "PIP_ROOT", "PIP_USER", "PIP_REQUIRE_VIRTUALENV")
@@ -38,7 +38,7 @@ class Pip:
         """Runs `pip words...` and yields its lines, to the last.
 
         Raises:
-            Trouble: pip failed.
+            LauncherTrouble: pip failed.
         """
         lines: list[str] = []
         with _started([*self.command, *words, *self._options()], cwd, self.environment()) as pip:
@@ -64,7 +64,7 @@ class Pip:
         # pip needs none of ROS's libraries, and must not start a second time for them.
         return kept | {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1", "PYTHONUNBUFFERED": "1"}
 
-    def _trouble(self, output: str) -> Trouble:
+    def _trouble(self, output: str) -> LauncherTrouble:
         if _DISK_FULL.search(output):
             return disk_full(self.log.parent)
         if self.wheels and (found := _NO_WHEEL.search(output)):
@@ -72,10 +72,10 @@ class Pip:
         if _UNREACHABLE.search(output):
             return _unreachable()
         if found := _FORBIDDEN.search(output):
-            return Trouble(
+            return LauncherTrouble(
                 f"This cannot be written: {found[1]}", "Give it to your own user with chown."
             )
-        return Trouble(
+        return LauncherTrouble(
             f"pip could not install the packages. {_last_error(output)}".rstrip(),
             f"Read its report: {self.log}",
         )
@@ -105,16 +105,16 @@ def _started(command: Sequence[str], cwd: Path, environment: dict[str, str]) -> 
     )
 
 
-def _no_wheel(name: str, folder: Path) -> Trouble:
+def _no_wheel(name: str, folder: Path) -> LauncherTrouble:
     version = f"{sys.version_info.major}.{sys.version_info.minor}"
-    return Trouble(
+    return LauncherTrouble(
         f"The folder {folder} has no wheel of {name} for Python {version}.",
         f"On a machine with a network, with Python {version}: ./roslings wheels {folder}",
     )
 
 
-def _unreachable() -> Trouble:
-    return Trouble(
+def _unreachable() -> LauncherTrouble:
+    return LauncherTrouble(
         "The package index cannot be reached, or the connection broke.",
         "Look at your network, then run the same command again: it goes on where it stopped.",
         "With no network: ROSLINGS_WHEELS=DIR ./roslings (README: without a network)",

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings_launcher.errors import Trouble
+from roslings_launcher.errors import LauncherTrouble
 
 # The start of a script names its Python (`#!...`), cut by the kernel at this many bytes.
 _SHEBANG_BYTES = 255
@@ -19,7 +19,7 @@ _BREAKING = re.compile(r"""[\s:"`\x00-\x1f\x7f]""")
 
 
 @dataclass(frozen=True)
-class Place:
+class CoursePlace:
     """The course's folder and what the bootstrap keeps in it."""
 
     root: Path
@@ -60,12 +60,13 @@ def require_usable(root: Path) -> None:
     """Nothing where an environment in `root` would work.
 
     Raises:
-        Trouble: colcon's scripts would break under this path, or nothing can be written there.
+        LauncherTrouble: colcon's scripts would break under this path, or nothing can be written
+            there.
     """
     _require_plain(str(root))
     _require_short(root)
     if not os.access(root, os.W_OK):
-        raise Trouble(
+        raise LauncherTrouble(
             f"This folder cannot be written: {root}",
             "Copy it to a folder of your own, for instance your home folder, and run it there.",
         )
@@ -74,7 +75,7 @@ def require_usable(root: Path) -> None:
 def _require_plain(path: str) -> None:
     found = _BREAKING.search(path)
     if found:
-        raise Trouble(
+        raise LauncherTrouble(
             f"The path of this folder has {_called(found.group())} in it, and the scripts that "
             f"colcon writes do not run from there: {path}",
             "Move this folder, for instance to ~/roslings, and run it there.",
@@ -89,7 +90,7 @@ def _require_short(root: Path) -> None:
     limit = _shebang_bytes(platform.release())
     length = len(os.fsencode(root)) + len(_LONGEST_TAIL)
     if length > limit:
-        raise Trouble(
+        raise LauncherTrouble(
             f"The path of this folder is {length - limit} bytes too long for Linux to start a "
             f"script from it: {root}",
             "Move this folder, for instance to ~/roslings, and run it there.",

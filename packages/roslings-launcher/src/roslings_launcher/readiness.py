@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings_launcher import sizes
-from roslings_launcher.errors import Trouble, wrapped
-from roslings_launcher.machine import Machine, require_unix, require_wheels
+from roslings_launcher.errors import LauncherTrouble, wrapped
+from roslings_launcher.machine import WheelPlatform, require_unix, require_wheels
 
 FIRST_GROUPS = ("setup", "ros", "colcon", "check")
 """What the first `check` installs where no ROS is sourced."""
@@ -22,7 +22,7 @@ COMPILERS = ("c++", "g++", "clang++")
 
 
 @dataclass(frozen=True)
-class Line:
+class ReadinessItem:
     """One thing that the machine has or lacks, and what follows."""
 
     has: bool
@@ -35,8 +35,8 @@ class Line:
 
 
 def readiness(
-    machine: Machine, environment: Mapping[str, str], folder: Path, root: Path = Path("/")
-) -> list[Line]:
+    machine: WheelPlatform, environment: Mapping[str, str], folder: Path, root: Path = Path("/")
+) -> list[ReadinessItem]:
     """What a course in `folder` finds on `machine`; `root` is where the system's files begin."""
     if machine.system == "Windows":
         return [_no_shell(machine)]
@@ -47,64 +47,70 @@ def readiness(
     return [*seen, _disk(folder)]
 
 
-def _no_shell(machine: Machine) -> Line:
+def _no_shell(machine: WheelPlatform) -> ReadinessItem:
     try:
         require_unix(machine)
-    except Trouble as trouble:
-        return Line(False, f"a Linux. {trouble.what}", trouble.steps)
+    except LauncherTrouble as trouble:
+        return ReadinessItem(False, f"a Linux. {trouble.what}", trouble.steps)
     raise AssertionError(f"asked of {machine.system}")
 
 
-def _system(machine: Machine) -> Line:
+def _system(machine: WheelPlatform) -> ReadinessItem:
     glibc = f", glibc {_dotted(machine.glibc)}" if machine.glibc else ""
     python = _dotted(machine.python)
-    return Line(True, f"{machine.system} on {machine.architecture}{glibc}, Python {python}")
+    return ReadinessItem(
+        True, f"{machine.system} on {machine.architecture}{glibc}, Python {python}"
+    )
 
 
-def _ros(machine: Machine, environment: Mapping[str, str], root: Path) -> Iterator[Line]:
+def _ros(
+    machine: WheelPlatform, environment: Mapping[str, str], root: Path
+) -> Iterator[ReadinessItem]:
     """A sourced Jazzy is used; else the wheels come by themselves; else there is another way."""
     sourced = environment.get("ROS_DISTRO", "")
     if sourced == "jazzy":
-        yield Line(True, "ROS 2 Jazzy, sourced in this terminal. It is used as it is.")
+        yield ReadinessItem(True, "ROS 2 Jazzy, sourced in this terminal. It is used as it is.")
         return
     if sourced:
-        yield Line(
+        yield ReadinessItem(
             False,
             f"a terminal for Jazzy: this one has ROS 2 {sourced.capitalize()} sourced.",
             ("Open a new terminal that does not source it (look into ~/.bashrc).",),
         )
     if (root / APT.lstrip("/")).is_file():
-        yield Line(True, f"ROS 2 Jazzy from apt. To use it: source {APT}")
+        yield ReadinessItem(True, f"ROS 2 Jazzy from apt. To use it: source {APT}")
         return
     yield _wheels(machine)
 
 
-def _wheels(machine: Machine) -> Line:
+def _wheels(machine: WheelPlatform) -> ReadinessItem:
     try:
         require_wheels(machine)
-    except Trouble as trouble:
-        return Line(False, f"ROS 2 Jazzy. {trouble.what}", trouble.steps)
+    except LauncherTrouble as trouble:
+        return ReadinessItem(False, f"ROS 2 Jazzy. {trouble.what}", trouble.steps)
     mb = sizes.megabytes(machine.python, FIRST_GROUPS)
     size = f", about {mb:.0f} MB" if mb else ""
-    return Line(True, f"what ROS's Python packages need. They come at the first use{size}.")
+    return ReadinessItem(
+        True, f"what ROS's Python packages need. They come at the first use{size}."
+    )
 
 
-def _compiler(path: str) -> Line:
+def _compiler(path: str) -> ReadinessItem:
     if any(shutil.which(name, path=path) for name in COMPILERS):
-        return Line(True, "a C++ compiler")
-    return Line(
+        return ReadinessItem(True, "a C++ compiler")
+    return ReadinessItem(
         False,
         "a C++ compiler. Beside an installed ROS, day 5 needs one: it builds message types.",
         ("On Ubuntu and Debian: sudo apt install build-essential",),
     )
 
 
-def _disk(folder: Path) -> Line:
+def _disk(folder: Path) -> ReadinessItem:
     free = shutil.disk_usage(_there(folder)).free
     told = f"{free / 1e9:.1f} GB free on the disk"
     if free >= FIRST_BYTES:
-        return Line(True, told)
-    return Line(
+        return ReadinessItem(True, told)
+    return ReadinessItem(
         False,
         f"room on the disk: {told}, and the first use needs {FIRST_BYTES / 1e9:.1f} GB.",
         ("Free some (look with: df -h .), or give a folder on another disk.",),

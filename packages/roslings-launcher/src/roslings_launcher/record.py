@@ -8,9 +8,9 @@
     interfaces/       the course's own message types as they were put there: sources, built ones
     bytecode          an empty file: all packages are compiled
 
-The script `./roslings` reads the same files. A record is there only while all of it is true: it
-is put aside before the first change and comes back, in one step, after the last. Where packages are
-only added it stays, for what it tells stays true, and others go on meanwhile; a file beside it says
+The script `./roslings` reads the same files. A record is there only while all of it is true. It is
+put aside before the first change and comes back, in one step, after the last. Where packages are
+only added it stays, for what it tells stays true, and others go on meanwhile. A file beside it says
 that some may be half there.
 """
 
@@ -23,17 +23,17 @@ from pathlib import Path
 
 from roslings_launcher.interface_sources import files_of
 from roslings_launcher.interfaces import GROUP
-from roslings_launcher.place import Place
+from roslings_launcher.place import CoursePlace
 from roslings_launcher.sources import OFFERS, offers_as_written
 
 BYTECODE = "bytecode"
 
 
 @dataclass(frozen=True)
-class Record:
+class EnvironmentRecord:
     """The record of the environment in `place`."""
 
-    place: Place
+    place: CoursePlace
 
     @property
     def _folder(self) -> Path:

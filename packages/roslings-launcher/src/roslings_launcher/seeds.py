@@ -17,7 +17,7 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from roslings_launcher.errors import Trouble
+from roslings_launcher.errors import LauncherTrouble
 from roslings_launcher.index import wheel_from_index
 
 SYSTEM_FOLDERS = (Path("/usr/bin"), Path("/usr/local/bin"))  # whatever PATH says
@@ -41,13 +41,13 @@ def find_seed(python: str, scratch: Path) -> Path:
     """A path that Python runs as pip. Files fetched for it go to `scratch`.
 
     Raises:
-        Trouble: there is no pip in any of the known places.
+        LauncherTrouble: there is no pip in any of the known places.
     """
     for way in _ways(python, scratch):
         for seed in way():
             if answers(python, seed):
                 return seed
-    raise Trouble(
+    raise LauncherTrouble(
         f"This Python has no pip, and none was found elsewhere: {python}",
         "On Ubuntu and Debian: sudo apt install python3-venv",
         "Without sudo: put a pip-*.whl into a folder DIR, and run: ROSLINGS_WHEELS=DIR ./roslings",

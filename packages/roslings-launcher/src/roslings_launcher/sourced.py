@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from roslings_launcher.errors import Trouble
+from roslings_launcher.errors import LauncherTrouble
 
 _NEW_TERMINAL = (
     "Open a new terminal that does not source it (look into ~/.bashrc), and run this there."
@@ -25,13 +25,13 @@ def find_sourced(environment: Mapping[str, str]) -> SourcedRos | None:
     """The sourced Jazzy, or None where no ROS is sourced.
 
     Raises:
-        Trouble: another distribution is sourced, or Jazzy without a working rclpy.
+        LauncherTrouble: another distribution is sourced, or Jazzy without a working rclpy.
     """
     distribution = environment.get("ROS_DISTRO", "")
     if not distribution:
         return None
     if distribution != "jazzy":
-        raise Trouble(
+        raise LauncherTrouble(
             f"This terminal has ROS 2 {distribution.capitalize()} sourced. roslings teaches "
             "ROS 2 Jazzy, and the two do not mix.",
             _NEW_TERMINAL,
@@ -43,7 +43,7 @@ def _python_with_rclpy() -> str:
     for python in _candidates():
         if found := _base_that_imports_rclpy(python):
             return found
-    raise Trouble(
+    raise LauncherTrouble(
         "This terminal has ROS_DISTRO=jazzy, but no Python here can import rclpy.",
         "Install it: sudo apt install ros-jazzy-rclpy, then: source /opt/ros/jazzy/setup.bash",
         "Or open a terminal where ROS is not sourced, and run this there.",

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings_launcher import __version__
-from roslings_launcher.errors import Trouble, disk_full
+from roslings_launcher.errors import LauncherTrouble, disk_full
 from roslings_launcher.sources import OFFERS, offers, seen_by_python
 
 COMMANDS = (
@@ -73,7 +73,7 @@ class Virtual:
         """A new, empty environment of `python`; whatever was there is gone.
 
         Raises:
-            Trouble: this Python cannot make one.
+            LauncherTrouble: this Python cannot make one.
         """
         self.remove()
         command = [python, "-m", "venv", "--without-pip", *_seeing(sees_system), str(self.folder)]
@@ -147,17 +147,17 @@ def _rename_inside(file: Path, old: bytes, new: bytes) -> None:
         file.write_bytes(content.replace(old, new))
 
 
-def _no_venv(python: str, folder: Path, output: str) -> Trouble:
+def _no_venv(python: str, folder: Path, output: str) -> LauncherTrouble:
     if "No module named venv" in output:
         version = "3" if python != sys.executable else f"3.{sys.version_info.minor}"
-        return Trouble(
+        return LauncherTrouble(
             f"This Python has no venv module: {python}",
             f"On Ubuntu and Debian: sudo apt install python{version}-venv",
         )
     if "No space left" in output:
         return disk_full(folder)
     last = (output.strip().splitlines() or ["it said nothing"])[-1]
-    return Trouble(
+    return LauncherTrouble(
         f"{python} could not make an environment: {last}",
         "Take another Python: ROSLINGS_PYTHON=/path/to/python3.12 ./roslings",
     )

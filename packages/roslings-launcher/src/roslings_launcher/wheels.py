@@ -7,19 +7,19 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from roslings_launcher import groups, sizes
-from roslings_launcher.errors import Trouble, say
+from roslings_launcher.errors import LauncherTrouble, say
 from roslings_launcher.installing import TOOLS, Installer
 from roslings_launcher.machine import require_wheels, this_machine
-from roslings_launcher.place import Place
+from roslings_launcher.place import CoursePlace
 from roslings_launcher.seeds import interpreter
 from roslings_launcher.virtual import Virtual
 
 
-def fill(place: Place, words: Sequence[str]) -> None:
+def fill(place: CoursePlace, words: Sequence[str]) -> None:
     """Puts the wheels of the named groups (of all, where none is named) for this Python into DIR.
 
     Raises:
-        Trouble: no such group, no such folder, or the wheels do not come.
+        LauncherTrouble: no such group, no such folder, or the wheels do not come.
     """
     folder = _folder(words)
     chosen = _chosen(words[1:], groups.names(place.pyproject))
@@ -31,7 +31,7 @@ def fill(place: Place, words: Sequence[str]) -> None:
 
 def _folder(words: Sequence[str]) -> Path:
     if not words or words[0].startswith("-"):
-        raise Trouble(
+        raise LauncherTrouble(
             "`wheels` needs a folder to put the wheels in.",
             "For instance: ./roslings wheels /media/usb/roslings-wheels",
         )
@@ -39,7 +39,7 @@ def _folder(words: Sequence[str]) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise Trouble(
+        raise LauncherTrouble(
             f"The folder {folder} cannot be made: {error.strerror}.", "Name another folder."
         ) from None
     return folder
@@ -48,11 +48,13 @@ def _folder(words: Sequence[str]) -> Path:
 def _chosen(named: Sequence[str], known: Sequence[str]) -> Sequence[str]:
     for name in named:
         if name not in known:
-            raise Trouble(f"There is no group `{name}`.", f"The groups are: {', '.join(known)}")
+            raise LauncherTrouble(
+                f"There is no group `{name}`.", f"The groups are: {', '.join(known)}"
+            )
     return named or known
 
 
-def _installer(place: Place, scratch: Path) -> Installer:
+def _installer(place: CoursePlace, scratch: Path) -> Installer:
     virtual = Virtual(scratch)
     virtual.make(interpreter(), sees_system=False)
     return Installer(place, virtual)

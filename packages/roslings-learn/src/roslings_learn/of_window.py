@@ -1,6 +1,6 @@
 """What a window of JupyterLab gives the notebooks in it: its address, and its ROS domain.
 
-A window leases its domain as an arena does, so that two windows of one computer are apart, and its
+A window leases its domain as an arena does, so that two windows of one computer are apart. Its
 terminals are in it from the start. The first notebook that runs a cell is in it, too; the next one
 of the same window gets another domain.
 """

@@ -21,6 +21,7 @@ from typing import Any
 import pytest
 
 from ros2_on_pip.domain_lease import leased_domain
+from roslings.capabilities.services.contract import ServiceWords
 from roslings.course import root
 from roslings_learn.drills import Drill, all_drills, drill
 from roslings_learn.drills.card import DrillCard
@@ -152,7 +153,7 @@ def terminal(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Termin
 def is_asked(card: DrillCard) -> bool:
     """Whether it waits for somebody else: a server, a client, a word."""
     others = card.takes or card.gives or card.tells or card.says
-    return bool(others or any(node.calls for node in card.nodes))
+    return bool(others or any(node.of(ServiceWords).calls for node in card.nodes))
 
 
 def names_of(card: DrillCard) -> set[str]:

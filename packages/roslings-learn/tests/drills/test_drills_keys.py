@@ -121,11 +121,11 @@ def test_a_question_greets_with_no_red_cross(workspace: Path) -> None:
     assert CHILD.card.answer
     title = "The file holds your answer."
     waits = failed(CHILD.name, "answer", title, NoAnswerYet(CHILD.card.answer.question))
-    way = telling.Way("./roslings")
+    way = telling.WayToGoOn("./roslings")
     told = shown(telling.put_verdict, CHILD, waits, file, way)
     assert told.startswith("? child") and "✗" not in told and "expected" not in told
     assert "ANSWER is still None" in told and CHILD.card.answer.question[:20] in told
-    watched = telling.Way("./roslings", watched=True)
+    watched = telling.WayToGoOn("./roslings", watched=True)
     told = shown(telling.put_verdict, CHILD, waits, file, watched)
     assert CHILD.card.answer.question[:20] not in told  # the task above has it
 

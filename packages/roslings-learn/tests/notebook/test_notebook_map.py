@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-from roslings_learn.notebook.picture import Picture
+from roslings_learn.notebook.picture import NotebookPicture
 from roslings_rover.models.differential_drive import Body, Pose
 from roslings_rover.models.world import default_world
 from roslings_rover.rover.moving_map import moving_map
-from roslings_rover.rover.rover import Moment
+from roslings_rover.rover.rover import RoverMoment
 
 pytestmark = pytest.mark.slow
 
@@ -19,14 +19,14 @@ TRIES = 5
 """A busy computer may look for the first time when the drive is over."""
 
 
-def drive() -> Picture:
+def drive() -> NotebookPicture:
     """Five metres straight ahead in five seconds, as a cell shows them."""
-    trail = [Moment(0.05 * i, Pose(0.05 * i)) for i in range(101)]
+    trail = [RoverMoment(0.05 * i, Pose(0.05 * i)) for i in range(101)]
     moving, still = (
         moving_map(default_world(), trail, Body().radius_m, moves=moves).encode()
         for moves in (True, False)
     )
-    return Picture(moving, "image/svg+xml", "A drive", still=still)
+    return NotebookPicture(moving, "image/svg+xml", "A drive", still=still)
 
 
 def watched(browser: Any, motion: str) -> list[bytes]:

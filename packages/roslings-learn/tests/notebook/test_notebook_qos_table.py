@@ -9,8 +9,8 @@ import pytest
 
 os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
 
-from roslings_learn.lessons.qos import RULES, Rule, broken_rules
-from roslings_learn.notebook.qos_table import Meeting, Table, as_text, meet
+from roslings_learn.lessons.qos import RULES, PolicyRule, broken_rules
+from roslings_learn.notebook.qos_table import Meeting, QosTable, as_text, meet
 
 WEAKEST = {rule.name: rule.choices[0].words for rule in RULES}
 STRONGEST = {rule.name: rule.choices[-1].words for rule in RULES}
@@ -23,7 +23,7 @@ PAIRS = [
 
 
 @pytest.mark.parametrize(("rule", "offered", "asked"), PAIRS)
-def test_a_rule_is_what_the_middleware_does(rule: Rule, offered: str, asked: str) -> None:
+def test_a_rule_is_what_the_middleware_does(rule: PolicyRule, offered: str, asked: str) -> None:
     """A real publisher and subscription, alike but for this rule."""
     meeting = meet({**WEAKEST, rule.name: offered}, {**WEAKEST, rule.name: asked})
     assert meeting.matched == rule.holds(offered, asked)
@@ -49,7 +49,7 @@ def test_the_text_names_each_rule_with_its_choices() -> None:
 
 def test_the_table_asks_again_at_each_choice() -> None:
     """It says what ROS said, and each rule that fails."""
-    table = Table()
+    table = QosTable()
     assert "matched" in table.says.value
     table.asked["reliability"].value = "reliable"
     said = table.says.value

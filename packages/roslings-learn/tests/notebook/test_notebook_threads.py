@@ -60,6 +60,28 @@ print([name for name in left if "Pool" in name or "roslings" in name])
     assert (ran.text, ran.error) == ("[]\n", ""), ran
 
 
+def test_python_warns_of_no_callback_that_no_thread_came_to(cells: Kernel) -> None:
+    """All threads are busy, and more callbacks wait for one when the session ends."""
+    ran = cells.run(f"""import gc
+from rclpy.callback_groups import ReentrantCallbackGroup
+{BUSY}
+class Busier(Busy):
+    def __init__(self):
+        super().__init__()
+        together = ReentrantCallbackGroup()
+        self.ready = [self.create_timer(0.01, self.wait, together) for _ in range(8)]
+    def all_wait(self):
+        return all(timer.is_ready() for timer in self.ready)
+with session() as ros:
+    busy = ros.start(Busier, threads=2)
+    ros.until(busy.entered.is_set, "the callback")
+    ros.until(busy.all_wait, "the others")
+del busy, ros
+print(gc.collect() >= 0)
+""")
+    assert (ran.text, ran.error) == ("True\n", ""), ran
+
+
 def test_a_node_with_an_action_leaves_the_graph_with_its_session(cells: Kernel) -> None:
     """Also where somebody still holds the node."""
     ran = cells.run(f"""{COUNTER}

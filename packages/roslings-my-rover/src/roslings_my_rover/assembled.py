@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from roslings.experiment.run_folder import run_folder
-from roslings_my_rover.chosen import Choice, NoPart
+from roslings_my_rover.chosen import ChosenParts, NoPart
 from roslings_my_rover.crew import Crew, working
 from roslings_my_rover.drive_bag import NAME
-from roslings_my_rover.installing import Broken, build_all
-from roslings_my_rover.parts import CABLE, EYES, Part
+from roslings_my_rover.installing import BrokenPart, build_all
+from roslings_my_rover.parts import CABLE, EYES, RoverPart
 from roslings_my_rover.robot import MyRover
 from roslings_my_rover.silence import Silent
 from roslings_rover.board import Board, Mega
@@ -36,7 +36,7 @@ OF_ROS = (
 
 
 @dataclass(frozen=True)
-class Wish:
+class RoverOptions:
     """What somebody wants of a rover, besides its parts."""
 
     follows: bool = False
@@ -52,7 +52,7 @@ class Assembled:
 
     node: MyRover
     crew: Crew
-    shown: Shown
+    shown: PartsCaption
     board: Board | None
     plugged: bool = True
     _look_s: float = field(default_factory=time.monotonic)
@@ -96,10 +96,10 @@ class Assembled:
         self.shown.parts(self.crew, tuple(silent))
 
 
-class Shown:
+class PartsCaption:
     """What the map says of the parts, and of what has just happened."""
 
-    def __init__(self, node: MyRover, choice: Choice, broken: list[Broken]) -> None:
+    def __init__(self, node: MyRover, choice: ChosenParts, broken: list[BrokenPart]) -> None:
         self._node, self._choice = node, choice
         self._broken = {each.chosen.part for each in broken}
         self._until_s = 0.0
@@ -141,7 +141,10 @@ class Shown:
 
 @contextmanager
 def assembled(
-    choice: Choice, wish: Wish, building: Callable[[str], None], say: Callable[[str], None]
+    choice: ChosenParts,
+    wish: RoverOptions,
+    building: Callable[[str], None],
+    say: Callable[[str], None],
 ) -> Iterator[Assembled]:
     """Build the parts and start the rover's node; `start`ing its programs is the next step.
 
@@ -156,7 +159,7 @@ def assembled(
         if not built:
             raise NoPart
         rover = Rover(seed=wish.seed)
-        parts: list[Part] = [each.chosen.part for each in built]
+        parts: list[RoverPart] = [each.chosen.part for each in built]
         board = stack.enter_context(_board(rover)) if CABLE in parts else None
         device = stack.enter_context(_camera(rover, home)) if EYES in parts else None
         crew = Crew(
@@ -172,7 +175,7 @@ def assembled(
             rover, by_keys=wish.by_keys, wiring=crew.wiring.robot, more_keys=wish.more_keys
         )
         stack.enter_context(node)
-        yield Assembled(node, crew, Shown(node, choice, broken), board)
+        yield Assembled(node, crew, PartsCaption(node, choice, broken), board)
 
 
 @contextmanager
@@ -199,7 +202,7 @@ def _board(rover: Rover) -> Iterator[Board]:
 @contextmanager
 def _camera(rover: Rover, home: Path) -> Iterator[Path]:
     """What the rover sees, behind a path of its own."""
-    camera = SyntheticCamera(rover.eye, encoding="bgr8")
+    camera = SyntheticCamera(rover.camera_model, encoding="bgr8")
     path = home / "camera"
     with SocketCamera(path, lambda _: camera.look(rover)) as device:
         device.plug_in()

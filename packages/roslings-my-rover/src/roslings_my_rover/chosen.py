@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ros2_on_pip.errors import RoslingsError
+from roslings.commands.invocation import program
 from roslings.course import Lab
-from roslings.typed import program
 from roslings.workspace.best import best_package
 from roslings.workspace.progress import status
-from roslings_my_rover.parts import PARTS, Part, day_number, labs_of_parts
+from roslings_my_rover.parts import PARTS, RoverPart, day_number, labs_of_parts
 
 FULL = 100.0
 
@@ -35,10 +35,10 @@ class CannotBorrow(RoslingsError):
 
 
 @dataclass(frozen=True)
-class Chosen:
+class ChosenPart:
     """A part that is there, and its package."""
 
-    part: Part
+    part: RoverPart
     lab: Lab
     package: Path
     score: float | None
@@ -57,10 +57,10 @@ class Chosen:
 
 
 @dataclass(frozen=True)
-class Absent:
+class AbsentPart:
     """A part that is not there yet."""
 
-    part: Part
+    part: RoverPart
     lab: Lab
 
     @property
@@ -70,16 +70,16 @@ class Absent:
 
 
 @dataclass(frozen=True)
-class Choice:
+class ChosenParts:
     """All parts, each there or absent, in the order of the days."""
 
-    there: tuple[Chosen, ...]
-    absent: tuple[Absent, ...]
+    there: tuple[ChosenPart, ...]
+    absent: tuple[AbsentPart, ...]
 
 
 def chosen(
     last_day: int | None = None, borrowed: Collection[int] = (), todays: bool = False
-) -> Choice:
+) -> ChosenParts:
     """The parts up to a day; of the days `borrowed` the course's, where the student has none.
 
     With `todays`, the packages as they lie in the workspace, not those of the best score. Raises
@@ -88,7 +88,7 @@ def chosen(
     labs = labs_of_parts()
     _insist_on_days(borrowed, labs)
     mine = {each.lab.name: each for each in status()}
-    there, absent = list[Chosen](), list[Absent]()
+    there, absent = list[ChosenPart](), list[AbsentPart]()
     for part in PARTS:
         lab = labs.get(part.name)
         if lab is None or (last_day is not None and day_number(lab) > last_day):
@@ -99,12 +99,12 @@ def chosen(
         if todays and own.progress.checks:
             score = own.progress.last
         if package:
-            there.append(Chosen(part, lab, package, score))
+            there.append(ChosenPart(part, lab, package, score))
         elif day_number(lab) in borrowed:
-            there.append(Chosen(part, lab, lab.solution, None, "borrowed"))
+            there.append(ChosenPart(part, lab, lab.solution, None, "borrowed"))
         else:
-            absent.append(Absent(part, lab))
-    return Choice(tuple(there), tuple(absent))
+            absent.append(AbsentPart(part, lab))
+    return ChosenParts(tuple(there), tuple(absent))
 
 
 def _insist_on_days(borrowed: Collection[int], labs: dict[str, Lab]) -> None:
@@ -121,7 +121,7 @@ def _insist_on_days(borrowed: Collection[int], labs: dict[str, Lab]) -> None:
             )
 
 
-def told(choice: Choice) -> Iterator[str]:
+def told(choice: ChosenParts) -> Iterator[str]:
     """A line a part: `day 7  eyes  pi-camera  60 of 100`, for `--parts`."""
     lines = [(day_number(each.lab), _there(each)) for each in choice.there]
     lines += [
@@ -135,6 +135,6 @@ def told(choice: Choice) -> Iterator[str]:
         yield f"day {day:2}  {line}".rstrip()
 
 
-def _there(each: Chosen) -> str:
+def _there(each: ChosenPart) -> str:
     remark = f"  ({each.remark})" if each.remark else ""
     return f"{each.part.name:8} {each.part.can}{remark}"

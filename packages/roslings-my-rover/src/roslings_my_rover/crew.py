@@ -14,9 +14,9 @@ from pathlib import Path
 
 from roslings.arena import Installed, Launch, Process
 from roslings_my_rover import follow, relay
-from roslings_my_rover.installing import Built
-from roslings_my_rover.parts import Part
-from roslings_my_rover.wiring import Link, Wiring, new_mark, wired
+from roslings_my_rover.installing import BuiltPart
+from roslings_my_rover.parts import RoverPart
+from roslings_my_rover.wiring import StartArguments, Wiring, new_mark, wired
 
 RELAY, FOLLOWER, RECORDER = "relay", "follower", "recorder"
 RECORDED = ("/odom", "/cmd_vel", "/rover/motors", "/obstacle", "/robot_status", "/ball")
@@ -26,10 +26,10 @@ RECORDS_WITHIN_S = 20.0
 
 
 @dataclass(frozen=True)
-class Ended:
+class EndedPart:
     """A part that is not there any more."""
 
-    part: Part
+    part: RoverPart
     program: str
     last_line: str
 
@@ -45,7 +45,7 @@ class Ended:
 class _Running:
     """One program, and how it was started."""
 
-    link: Link
+    link: StartArguments
     process: Process
     stack: ExitStack
 
@@ -54,7 +54,7 @@ class _Running:
 class Crew:
     """All programs beside the rover."""
 
-    built: Sequence[Built]
+    built: Sequence[BuiltPart]
     environment: Mapping[str, str]
     """What ROS needs to know besides: the domain, and how far one hears."""
     home: Path
@@ -65,11 +65,11 @@ class Crew:
     """A new folder for what was said; None: nothing is kept."""
     mark: str = field(default_factory=new_mark)
     """Behind the names of its links."""
-    ended: list[Ended] = field(default_factory=list)
+    ended: list[EndedPart] = field(default_factory=list)
     _running: dict[str, _Running] = field(default_factory=dict)
 
     @property
-    def parts(self) -> list[Part]:
+    def parts(self) -> list[RoverPart]:
         """Those that are there now."""
         gone = {each.part for each in self.ended if not each.part.holds_its_place}
         return [each.chosen.part for each in self.built if each.chosen.part not in gone]
@@ -79,7 +79,7 @@ class Crew:
         """As it is with the parts that are there now."""
         return wired(self.parts, self.port, self.device, self.mark)
 
-    def look(self) -> list[Ended]:
+    def look(self) -> list[EndedPart]:
         """Those that have ended since the last look; the others are wired without them."""
         news = list(self._gone())
         self.ended += news
@@ -107,24 +107,24 @@ class Crew:
         while self._running:
             self._running.popitem()[1].stack.close()
 
-    def _wanted(self) -> dict[str, Link]:
+    def _wanted(self) -> dict[str, StartArguments]:
         wiring = self.wiring
         own = {RELAY: wiring.relay} if wiring.relay else {}
-        follower = {FOLLOWER: Link()} if self.follows else {}
-        recorder = {RECORDER: Link()} if self.bag else {}
+        follower = {FOLLOWER: StartArguments()} if self.follows else {}
+        recorder = {RECORDER: StartArguments()} if self.bag else {}
         return {**recorder, **own, **wiring.programs, **follower}
 
-    def _gone(self) -> Iterator[Ended]:
+    def _gone(self) -> Iterator[EndedPart]:
         known = {each.program for each in self.ended}
         for each in self.built:
             for name in each.chosen.part.programs:
                 running = self._running.get(name)
                 if running and not running.process.alive and name not in known:
                     lines = [line.text for line in running.process.lines() if line.text.strip()]
-                    yield Ended(each.chosen.part, name, lines[-1] if lines else "")
+                    yield EndedPart(each.chosen.part, name, lines[-1] if lines else "")
                     break
 
-    def _started(self, name: str, link: Link) -> _Running:
+    def _started(self, name: str, link: StartArguments) -> _Running:
         command, installed = self._command(name)
         environment = {**(installed.environment if installed else {}), **self.environment}
         launch = Launch([*command, *link.arguments], environment, self.home, namespaces=False)

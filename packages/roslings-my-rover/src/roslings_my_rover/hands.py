@@ -7,13 +7,13 @@ from contextlib import contextmanager
 from typing import Any
 
 from ros2_on_pip.keyboard import Keys, NoKeys, keys_of
-from roslings_rover.rover.keys import Driver, NoTerminal, keyboard_node
+from roslings_rover.rover.keys import KeyboardDriver, NoTerminal, keyboard_node
 
 SPACE, CABLE, BALL = " ", "p", "f"
 TOLD = "Space: stop (day 10), p: cable (6), f: ball (7), q and z: faster and slower."
 
 
-class OwnKeys(Driver):
+class OwnKeys(KeyboardDriver):
     """Drives, and besides does what a rover of parts can."""
 
     def __init__(self, node: Any, keys: Keys, own: dict[str, Callable[[], None]]) -> None:

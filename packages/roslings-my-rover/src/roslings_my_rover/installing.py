@@ -7,21 +7,21 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.arena import Installed, Place
+from roslings.arena import ArenaPlace, Installed
 from roslings.arena.kernel import cores
 from roslings.experiment.run_folder import run_folder
 from roslings.workspace.shared_build import shared_build
 from roslings.workspace.student import stage, workspace_root
-from roslings_my_rover.chosen import Chosen
+from roslings_my_rover.chosen import ChosenPart
 
 BUILDS = Path(".roslings/my_rover")
 
 
 @dataclass(frozen=True)
-class Broken:
+class BrokenPart:
     """A part that does not build, or that lacks a program."""
 
-    chosen: Chosen
+    chosen: ChosenPart
     because: str
 
     @property
@@ -31,10 +31,10 @@ class Broken:
 
 
 @dataclass(frozen=True)
-class Built:
+class BuiltPart:
     """A part whose programs can be started."""
 
-    chosen: Chosen
+    chosen: ChosenPart
     installed: Installed
 
     def program(self, name: str) -> Path:
@@ -43,34 +43,34 @@ class Built:
 
 
 def build_all(
-    parts: Sequence[Chosen], home: Path, tell: Callable[[str], None]
-) -> tuple[list[Built], list[Broken]]:
+    parts: Sequence[ChosenPart], home: Path, tell: Callable[[str], None]
+) -> tuple[list[BuiltPart], list[BrokenPart]]:
     """Build each, one a processor; those that cannot be built or started, with the reason.
 
     Raises CannotRead and DiskFull.
     """
-    built, broken = list[Built](), list[Broken]()
+    built, broken = list[BuiltPart](), list[BrokenPart]()
     with ThreadPoolExecutor(cores()) as pool:
         made = [(each, pool.submit(_build, each, home)) for each in parts]
         try:
             for each, future in made:
                 tell(f"Building {each.part.name} ({each.lab.name})")
                 found = future.result()
-                (built if isinstance(found, Built) else broken).append(found)  # type: ignore[arg-type]
+                (built if isinstance(found, BuiltPart) else broken).append(found)  # type: ignore[arg-type]
         except BaseException:  # Ctrl-C: only what is being built comes to its end
             pool.shutdown(wait=False, cancel_futures=True)
             raise
     return built, broken
 
 
-def _under_its_name(each: Chosen, room: Path) -> Path:
+def _under_its_name(each: ChosenPart, room: Path) -> Path:
     """The package, in a folder that has its name: a student may have renamed the folder."""
     name = each.lab.outline.package
     return each.package if each.package.name == name else stage(each.package, room / "own" / name)
 
 
-def _build(each: Chosen, home: Path) -> Built | Broken:
-    place = Place("domain", home, home)
+def _build(each: ChosenPart, home: Path) -> BuiltPart | BrokenPart:
+    place = ArenaPlace("domain", home, home)
     builds = workspace_root() / BUILDS
     builds.mkdir(parents=True, exist_ok=True)
     with run_folder() as room:
@@ -78,8 +78,8 @@ def _build(each: Chosen, home: Path) -> Built | Broken:
         seen, installed = shared_build(builds, source, room, place, each.lab.card.builds_within_s)
     if installed is None:
         last = next((line for line in reversed(seen.output) if line.strip()), "colcon failed")
-        return Broken(each, f"it does not build. {last.strip()}")
+        return BrokenPart(each, f"it does not build. {last.strip()}")
     missing = [name for name in each.part.programs if not (installed.programs / name).is_file()]
     if missing:
-        return Broken(each, f"it has no executable {missing[0]!r}.")
-    return Built(each, installed)
+        return BrokenPart(each, f"it has no executable {missing[0]!r}.")
+    return BuiltPart(each, installed)

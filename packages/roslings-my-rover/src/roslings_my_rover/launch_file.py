@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from xml.sax.saxutils import quoteattr
 
-from roslings_my_rover.chosen import Choice
-from roslings_my_rover.wiring import Link, wired
+from roslings_my_rover.chosen import ChosenParts
+from roslings_my_rover.wiring import StartArguments, wired
 
 PORT, DEVICE = "/tmp/ttyROVER", "/tmp/rover_camera"
 HEAD = """\
@@ -14,12 +14,12 @@ HEAD = """\
      and turns the wheels: this file alone drives nothing. -->"""
 
 
-def launch_file(choice: Choice) -> str:
+def launch_file(choice: ChosenParts) -> str:
     """As XML, for `ros2 launch FILE`: a node for each program of each part that is there."""
     return "\n".join(["<launch>", HEAD, *_nodes(choice), "</launch>"])
 
 
-def _nodes(choice: Choice) -> Iterator[str]:
+def _nodes(choice: ChosenParts) -> Iterator[str]:
     programs = wired([each.part for each in choice.there], PORT, DEVICE).programs
     for each in choice.there:
         package = each.lab.outline.package
@@ -27,7 +27,7 @@ def _nodes(choice: Choice) -> Iterator[str]:
             yield from _node(package, name, programs[name])
 
 
-def _node(package: str, name: str, link: Link) -> Iterator[str]:
+def _node(package: str, name: str, link: StartArguments) -> Iterator[str]:
     head = f"  <node pkg={quoteattr(package)} exec={quoteattr(name)}"
     if not (link.remaps or link.parameters):
         yield f"{head}/>"

@@ -8,7 +8,7 @@ from roslings.course import Lab, all_labs
 
 
 @dataclass(frozen=True)
-class Part:
+class RoverPart:
     """What one lab adds to the rover."""
 
     name: str
@@ -22,19 +22,23 @@ class Part:
     """Whether nothing takes its place when it ends: a stop that is gone is no reason to drive."""
 
 
-VOICE = Part("voice", "nodes", ("minimal_publisher",), "says its status over its head")
-SONAR = Part(
+VOICE = RoverPart("voice", "nodes", ("minimal_publisher",), "says its status over its head")
+SONAR = RoverPart(
     "sonar",
     "distance-sensor",
     ("distance_sensor", "distance_subscriber"),
     "brakes before a wall",
 )
-PACE = Part("pace", "services", ("motor_controller",), "drives slowly when it is told to")
-PILOT = Part("pilot", "actions", ("drive_server",), "drives to a point by itself")
-CABLE = Part("cable", "serial-bridge", ("serial_bridge",), "drives its wheels through the Arduino")
-EYES = Part("eyes", "pi-camera", ("camera", "ball_finder"), "sees the ball")
-LIMITER = Part("limiter", "bring-up", ("speed_limiter", "beacon"), "keeps to a limit of its own")
-GUARD = Part(
+PACE = RoverPart("pace", "services", ("motor_controller",), "drives slowly when it is told to")
+PILOT = RoverPart("pilot", "actions", ("drive_server",), "drives to a point by itself")
+CABLE = RoverPart(
+    "cable", "serial-bridge", ("serial_bridge",), "drives its wheels through the Arduino"
+)
+EYES = RoverPart("eyes", "pi-camera", ("camera", "ball_finder"), "sees the ball")
+LIMITER = RoverPart(
+    "limiter", "bring-up", ("speed_limiter", "beacon"), "keeps to a limit of its own"
+)
+GUARD = RoverPart(
     "guard",
     "e-stop",
     ("e_stop_button", "guard"),
@@ -46,7 +50,7 @@ PARTS = (VOICE, SONAR, PACE, PILOT, CABLE, EYES, LIMITER, GUARD)
 reads what the rover has left behind."""
 
 
-def part_called(name: str) -> Part:
+def part_called(name: str) -> RoverPart:
     """Raises KeyError."""
     return {part.name: part for part in PARTS}[name]
 

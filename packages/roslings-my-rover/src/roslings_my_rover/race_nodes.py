@@ -15,8 +15,8 @@ from typing import Any
 
 from roslings_my_rover.race import Entrant, Race
 from roslings_rover.rover.driven import DrivenRover
-from roslings_rover.rover.ears import LONGEST_SENTENCE, SENTENCE_LASTS_S, Sentence
 from roslings_rover.rover.node import NAME, QUIET
+from roslings_rover.rover.subscriptions import LONGEST_SENTENCE, SENTENCE_LASTS_S, HeardSentence
 
 STARTER = "race"
 WANTED, ALLOWED, TAG = "cmd_vel_in", "cmd_vel", "beacon"
@@ -32,7 +32,7 @@ class RacingRover(DrivenRover):
     entrant: Entrant = field(kw_only=True)
     clash: str = ""
     """Who is there that should not be; a command does not wipe it away."""
-    _tag: Sentence | None = None
+    _tag: HeardSentence | None = None
     _tag_s: float = -math.inf
 
     @property
@@ -41,7 +41,7 @@ class RacingRover(DrivenRover):
         return f"/{self.entrant.colour}"
 
     @property
-    def sentence(self) -> Sentence | None:
+    def sentence(self) -> HeardSentence | None:
         """What its beacon says, as long as it says it."""
         return self._tag if time.monotonic() - self._tag_s < SENTENCE_LASTS_S else None
 
@@ -69,7 +69,7 @@ class RacingRover(DrivenRover):
 
     def _take_tag(self, said: Any) -> None:
         line = "".join(letter for letter in " ".join(said.data.split()) if letter.isprintable())
-        self._tag = Sentence(line[:LONGEST_SENTENCE], f"{self.space}/{TAG}")
+        self._tag = HeardSentence(line[:LONGEST_SENTENCE], f"{self.space}/{TAG}")
         self._tag_s = time.monotonic()
 
     def _look_for_twins(self) -> None:
@@ -123,7 +123,7 @@ class RaceNode:
         self._node, self._twist = node, Twist
         self._executor.add_node(node)
         self._parts.callback(node.destroy_node)
-        self._voices = {
+        self._publishers = {
             rover.space: node.create_publisher(Twist, f"{rover.space}/{WANTED}", 10)
             for rover in self.rovers
         }
@@ -168,4 +168,4 @@ class RaceNode:
         for rover in self.rovers:
             command = self._twist()
             command.linear.x = rover.entrant.told_m_s
-            self._voices[rover.space].publish(command)
+            self._publishers[rover.space].publish(command)

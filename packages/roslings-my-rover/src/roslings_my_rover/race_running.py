@@ -4,26 +4,25 @@ from __future__ import annotations
 
 import sys
 import threading
-import time
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from ros2_on_pip.errors import RoslingsError
 from roslings.arena import Launch, Process
+from roslings.commands.invocation import program
 from roslings.experiment.run_folder import run_folder
-from roslings.report.progress import Progress
-from roslings.typed import program
+from roslings.report.progress import ProgressLine
 from roslings_my_rover.assembled import environment
-from roslings_my_rover.chosen import Choice, Chosen
-from roslings_my_rover.crew import Ended
-from roslings_my_rover.installing import Built, build_all
+from roslings_my_rover.chosen import ChosenPart, ChosenParts
+from roslings_my_rover.crew import EndedPart
+from roslings_my_rover.installing import BuiltPart, build_all
 from roslings_my_rover.parts import LIMITER
 from roslings_my_rover.race import Race
 from roslings_my_rover.race_nodes import RaceNode
-from roslings_my_rover.race_view import RaceDisplay, opened, where
-from roslings_rover.asked import listening
-from roslings_rover.rover.displays import View
+from roslings_my_rover.race_view import opened, where
+from roslings_rover.rover.map_display import Display, View, shown_until
+from roslings_rover.stop_signal import listening
 
 LAUNCH_FILE = "bring_up.launch.py"
 """As the card of day 8 calls it."""
@@ -48,7 +47,7 @@ class CannotRace(RoslingsError):
         super().__init__(f"{because}\nAsk the check: {program()} check {LIMITER.lab}")
 
 
-def run(choice: Choice, view: View, seed: int = 0) -> Race:
+def run(choice: ChosenParts, view: View, seed: int = 0) -> Race:
     """Run the race until Ctrl-C; returns it as it then is.
 
     Raises NoLaunchFile, CannotRace and NoWindow.
@@ -66,15 +65,15 @@ def run(choice: Choice, view: View, seed: int = 0) -> Race:
     return node.race
 
 
-def _chosen(choice: Choice) -> Chosen:
+def _chosen(choice: ChosenParts) -> ChosenPart:
     found = next((each for each in choice.there if each.part is LIMITER), None)
     if found is None:
         raise NoLaunchFile
     return found
 
 
-def _built(chosen: Chosen, home: Path) -> Built:
-    with Progress() as progress:
+def _built(chosen: ChosenPart, home: Path) -> BuiltPart:
+    with ProgressLine() as progress:
         built, broken = build_all([chosen], home, progress.step)
     if broken:
         raise CannotRace(broken[0].line)
@@ -82,7 +81,7 @@ def _built(chosen: Chosen, home: Path) -> Built:
 
 
 @contextmanager
-def _launched(built: Built, about_ros: Mapping[str, str], home: Path) -> Iterator[Process]:
+def _launched(built: BuiltPart, about_ros: Mapping[str, str], home: Path) -> Iterator[Process]:
     """The student's launch file, until the block ends; then Ctrl-C for it and its nodes."""
     words = ["launch", built.chosen.lab.outline.package, LAUNCH_FILE]
     command = [sys.executable, "-m", "ros2_on_pip", *words]
@@ -92,20 +91,20 @@ def _launched(built: Built, about_ros: Mapping[str, str], home: Path) -> Iterato
         process.interrupt(ALL_END_WITHIN_S, and_children=True)
 
 
-def _go_on(node: RaceNode, process: Process, display: RaceDisplay, asked: threading.Event) -> None:
-    due_s = time.monotonic()
-    while not (asked.is_set() or display.closed):
+def _go_on(
+    node: RaceNode, process: Process, display: Display[RaceNode], asked: threading.Event
+) -> None:
+    def turn() -> None:
         node.turn()
         if not (process.alive or node.ended):
             node.ended = _ended(process)
-        if time.monotonic() >= due_s:
-            display.show(node)
-            due_s = time.monotonic() + display.every_s
+
+    shown_until(asked, display, node, turn)
 
 
 def _ended(process: Process) -> str:
     lines = [line.text for line in process.lines() if line.text.strip()]
-    return Ended(LIMITER, LAUNCH_FILE, lines[-1] if lines else "").line
+    return EndedPart(LIMITER, LAUNCH_FILE, lines[-1] if lines else "").line
 
 
 def _tell(node: RaceNode) -> None:

@@ -1,8 +1,9 @@
 """The relay: the one part of your rover that you have not written. Read it, it is short.
 
-It hears the newest command on `commands`, and passes it on 20 times a second on `checked`: slower
-where /motor_state says a limit, not forward while /obstacle is true, and zero when no command came
-for 1.5 s. The guard of day 10 asks for 0.4 s between two commands, so somebody has to repeat them.
+It hears the newest command on `commands`, and passes it on 20 times a second on `checked`. It is
+slower where /motor_state says a limit, and not forward while /obstacle is true. It is zero when no
+command came for 1.5 s. The guard of day 10 asks for 0.4 s between two commands, so somebody has to
+repeat them.
 """
 
 import math

@@ -11,10 +11,10 @@ from typing import Any
 from ros2_on_pip.interfaces import class_of
 from roslings_my_rover.mirror import Mirror
 from roslings_my_rover.silence import Silence, Silent
-from roslings_my_rover.wiring import ENTRANCE, LINKS, ODOMETRY, OWNED, STATUS, Robot, Steady
+from roslings_my_rover.wiring import ENTRANCE, LINKS, ODOMETRY, OWNED, STATUS, RoverWiring, Steady
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.rover.driven import DrivenRover
-from roslings_rover.rover.ears import LONGEST_SENTENCE, SENTENCE_LASTS_S, Sentence
+from roslings_rover.rover.subscriptions import LONGEST_SENTENCE, SENTENCE_LASTS_S, HeardSentence
 
 SPEED_OF_SOUND_M_S = 343.0
 ECHO_EVERY_S = 0.1
@@ -26,19 +26,19 @@ __all__ = ["STATUS", "MyRover"]
 class MyRover(DrivenRover):
     """A driven rover whose links follow a wiring, which may change while it runs."""
 
-    wiring: Robot = field(default_factory=Robot)
+    wiring: RoverWiring = field(default_factory=RoverWiring)
     told: str = ""
     """What has just happened to a part; a command does not wipe it away."""
     _clash: str = ""
     _believed: Pose | None = None
-    _status: Sentence | None = None
+    _status: HeardSentence | None = None
     _status_s: float = -math.inf
     _links: list[Any] = field(default_factory=list, repr=False)
     _mirrors: list[Mirror] = field(default_factory=list, repr=False)
     _silence: Silence = field(default_factory=lambda: Silence(time.monotonic), repr=False)
 
     @property
-    def sentence(self) -> Sentence | None:
+    def sentence(self) -> HeardSentence | None:
         """Its status, as long as somebody says it; of all sentences this one alone."""
         return self._status if time.monotonic() - self._status_s < SENTENCE_LASTS_S else None
 
@@ -51,7 +51,7 @@ class MyRover(DrivenRover):
         """Whose messages are missing now."""
         return self._silence.look(plugged)
 
-    def connect(self, wiring: Robot) -> None:
+    def connect(self, wiring: RoverWiring) -> None:
         """Follow another wiring from now on; programs may have been started anew for it."""
         self._silence.expect(wiring.steady)
         if wiring != self.wiring or not self._links:
@@ -64,10 +64,10 @@ class MyRover(DrivenRover):
         from std_msgs.msg import String
 
         node = self._node
-        self._node.destroy_subscription(self._ear)
+        self._node.destroy_subscription(self._subscription)
         self._node.destroy_publisher(self._odom)
         self._node.destroy_publisher(self._pictures)
-        self._voice_ear = node.create_subscription(String, STATUS, self._take_status, 10)
+        self._status_subscription = node.create_subscription(String, STATUS, self._take_status, 10)
         self._open_links()
 
     def _open_links(self) -> None:
@@ -183,7 +183,7 @@ class MyRover(DrivenRover):
 
     def _take_status(self, said: Any) -> None:
         line = "".join(letter for letter in " ".join(said.data.split()) if letter.isprintable())
-        self._status = Sentence(line[:LONGEST_SENTENCE], STATUS)
+        self._status = HeardSentence(line[:LONGEST_SENTENCE], STATUS)
         self._status_s = time.monotonic()
 
     def _take_odom(self, told: Any) -> None:

@@ -3,24 +3,30 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 
-from roslings.report.progress import Progress
-from roslings_my_rover.assembled import Assembled, Wish, assembled, started
-from roslings_my_rover.chosen import Choice
+from roslings.report.progress import ProgressLine
+from roslings_my_rover.assembled import Assembled, RoverOptions, assembled, started
+from roslings_my_rover.chosen import ChosenParts
 from roslings_my_rover.drive_bag import kept, require_place
 from roslings_my_rover.hands import TOLD, hands
-from roslings_rover.asked import listening
-from roslings_rover.rover.displays import Display, View, opened
+from roslings_rover.rover.displays import opened
+from roslings_rover.rover.driven import DrivenRover
+from roslings_rover.rover.map_display import Display, View, shown_until
 from roslings_rover.rover.one_rover import rover_of_terminal
 from roslings_rover.rover.rover import Rover
 from roslings_rover.rover.words import position
+from roslings_rover.stop_signal import listening
 
 
 def run(
-    choice: Choice, view: View, keys: bool, follows: bool, seed: int = 0, keeps_bag: bool = False
+    choice: ChosenParts,
+    view: View,
+    keys: bool,
+    follows: bool,
+    seed: int = 0,
+    keeps_bag: bool = False,
 ) -> Rover:
     """Run it until Ctrl-C; returns the rover as it then is. With `keeps_bag`, see `drive_bag`.
 
@@ -29,7 +35,7 @@ def run(
     """
     if keeps_bag:
         require_place()
-    wish = Wish(follows, keeps_bag, seed, keys, TOLD)
+    wish = RoverOptions(follows, keeps_bag, seed, keys, TOLD)
     with ExitStack() as stack:
         stack.enter_context(rover_of_terminal())
         made = stack.enter_context(_told(choice, wish))
@@ -46,12 +52,12 @@ def run(
 
 
 @contextmanager
-def _told(choice: Choice, wish: Wish) -> Iterator[Assembled]:
+def _told(choice: ChosenParts, wish: RoverOptions) -> Iterator[Assembled]:
     """It is built while a line says so; what cannot be built is said below."""
     left_out = list[str]()
     with ExitStack() as stack:
         try:
-            with Progress() as progress:
+            with ProgressLine() as progress:
                 parts = assembled(choice, wish, progress.step, left_out.append)
                 made = stack.enter_context(parts)
         finally:
@@ -61,12 +67,13 @@ def _told(choice: Choice, wish: Wish) -> Iterator[Assembled]:
 
 
 def _go_on(
-    made: Assembled, display: Display, asked: threading.Event, look: Callable[[], None]
+    made: Assembled,
+    display: Display[DrivenRover],
+    asked: threading.Event,
+    look: Callable[[], None],
 ) -> None:
-    due_s = time.monotonic()
-    while not (asked.is_set() or display.closed):
+    def turn() -> None:
         look()
         made.turn()
-        if time.monotonic() >= due_s:
-            display.show(made.node)
-            due_s = time.monotonic() + display.every_s
+
+    shown_until(asked, display, made.node, turn)

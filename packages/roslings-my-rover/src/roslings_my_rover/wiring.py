@@ -14,7 +14,7 @@ import secrets
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
-from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PACE, SONAR, VOICE, Part
+from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PACE, SONAR, VOICE, RoverPart
 
 ENTRANCE = "/cmd_vel"
 LIMITED = "/rover/limited"
@@ -32,7 +32,7 @@ BEFORE_THE_RELAY = (PACE, SONAR, GUARD)
 
 
 @dataclass(frozen=True)
-class Link:
+class StartArguments:
     """How one program is started: its remappings, name to name, and its parameters."""
 
     remaps: tuple[tuple[str, str], ...] = ()
@@ -66,7 +66,7 @@ class Steady:
 
 
 @dataclass(frozen=True)
-class Robot:
+class RoverWiring:
     """What the rover itself does, and what a part does in its place."""
 
     hears: str = ENTRANCE
@@ -86,10 +86,10 @@ class Robot:
 class Wiring:
     """All links of a rover of some parts."""
 
-    robot: Robot
-    programs: dict[str, Link] = field(default_factory=dict)
+    robot: RoverWiring
+    programs: dict[str, StartArguments] = field(default_factory=dict)
     """Of the parts' programs."""
-    relay: Link | None = None
+    relay: StartArguments | None = None
 
 
 def new_mark() -> str:
@@ -97,33 +97,35 @@ def new_mark() -> str:
     return f"_{secrets.token_hex(3)}"
 
 
-def wired(parts: Collection[Part], port: str = "", device: str = "", mark: str = "") -> Wiring:
+def wired(parts: Collection[RoverPart], port: str = "", device: str = "", mark: str = "") -> Wiring:
     """The wiring of these parts; `port` and `device` are where board and camera are.
 
     Without a mark the links have the names that people know.
     """
-    programs = {name: Link() for part in parts for name in part.programs}
+    programs = {name: StartArguments() for part in parts for name in part.programs}
     link, used = ENTRANCE, list[str]()
     if LIMITER in parts:
-        programs["speed_limiter"] = Link((("cmd_vel_in", link), ("cmd_vel", LIMITED + mark)))
+        programs["speed_limiter"] = StartArguments(
+            (("cmd_vel_in", link), ("cmd_vel", LIMITED + mark))
+        )
         link = LIMITED + mark
         used.append(LIMITED)
     relay = None
     if any(part in parts for part in BEFORE_THE_RELAY):
         checked = CHECKED if GUARD in parts else MOTORS
-        relay = Link((("commands", link), ("checked", checked + mark)))
+        relay = StartArguments((("commands", link), ("checked", checked + mark)))
         link = checked + mark
         used.append(checked)
     if GUARD in parts:
         raw = ((CHECKED.strip("/"), CHECKED + mark),) if mark else ()
-        programs["guard"] = Link((*raw, ("cmd_vel", MOTORS + mark)))
+        programs["guard"] = StartArguments((*raw, ("cmd_vel", MOTORS + mark)))
         link = MOTORS + mark
         used.append(MOTORS)
     if CABLE in parts:
-        programs["serial_bridge"] = Link((("cmd_vel", link),), (("port", port),))
+        programs["serial_bridge"] = StartArguments((("cmd_vel", link),), (("port", port),))
     if EYES in parts:
-        programs["camera"] = Link(parameters=(("device", device),))
-    robot = Robot(
+        programs["camera"] = StartArguments(parameters=(("device", device),))
+    robot = RoverWiring(
         hears="" if CABLE in parts else link,
         says_odom=CABLE not in parts,
         shows_pictures=EYES not in parts,
@@ -135,7 +137,7 @@ def wired(parts: Collection[Part], port: str = "", device: str = "", mark: str =
     return Wiring(robot, programs, relay)
 
 
-def _steady(parts: Collection[Part], mark: str) -> Iterator[Steady]:
+def _steady(parts: Collection[RoverPart], mark: str) -> Iterator[Steady]:
     """Of the small messages: pictures are looked at by who needs them."""
     if VOICE in parts:
         yield Steady("minimal_publisher", STATUS, "std_msgs/msg/String")

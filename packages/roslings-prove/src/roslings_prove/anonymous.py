@@ -1,10 +1,11 @@
 """Evidence that is kept with the course: no word of the machine that measured it, nothing to spare.
 
-Where such words come from: folders of a grading are in what colcon, `ros2 launch`, Python's
-tracebacks and the nodes themselves write, and in what nodes are given (bags, devices, parameter
-files); the course's folder and Python's own are in tracebacks; the kernel's release is in
-`machine`; a computer's name is in the log folder that a launch tells of, where no namespace hides
-it. Each is replaced by one word everywhere, so that what belongs together still does.
+Such words come from several places. Folders of a grading are in what colcon, `ros2 launch`,
+Python's tracebacks and the nodes themselves write. They are also in what nodes are given (bags,
+devices, parameter files). The course's folder and Python's own are in tracebacks. The kernel's
+release is in `machine`. A computer's name is in the log folder that a launch tells of, where no
+namespace hides it. Each is replaced by one word everywhere, so that what belongs together still
+does.
 """
 
 from __future__ import annotations

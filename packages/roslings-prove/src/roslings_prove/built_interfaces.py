@@ -8,8 +8,8 @@ is made is packed into `interfaces/built/` of the rover; commit it. A test makes
 both against each other.
 
 The C code is compiled against Python's stable ABI (`stable_abi.h`). Nothing of this machine is left
-in what is packed: no path, and no symbol of a libc or a libstdc++ newer than the wheels of ROS ask
-for. The same compiler and the same Python make the same bytes.
+in what is packed. There is no path, and no symbol of a libc or a libstdc++ newer than the wheels of
+ROS ask for. The same compiler and the same Python make the same bytes.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ from roslings_launcher.built_interfaces import (
     digest_of_file,
     origin_of,
 )
-from roslings_launcher.errors import Trouble, say
+from roslings_launcher.errors import LauncherTrouble, say
 from roslings_launcher.interface_build import InterfaceBuild
 from roslings_launcher.interface_sources import packages_of
 from roslings_launcher.interfaces import GENERATORS
 from roslings_launcher.machine import OLDEST_GLIBC
-from roslings_launcher.place import Place
+from roslings_launcher.place import CoursePlace
 from roslings_launcher.virtual import Virtual
 
 ROOT = Path(__file__).resolve().parents[4]
@@ -65,9 +65,9 @@ class Maker:
     virtual: Virtual
 
     @property
-    def place(self) -> Place:
+    def place(self) -> CoursePlace:
         """Of the course."""
-        return Place(self.root, self.virtual.folder.name)
+        return CoursePlace(self.root, self.virtual.folder.name)
 
     @property
     def build(self) -> InterfaceBuild:
@@ -77,8 +77,8 @@ class Maker:
     def make(self, to: Path) -> list[BuiltPackage]:
         """Build all packages of types, and pack each into the folder `to`.
 
-        Raises Trouble where something that builds is missing, or where what was built fits this
-        machine alone.
+        Raises LauncherTrouble where something that builds is missing, or where what was built fits
+        this machine alone.
         """
         self._require_generators()
         self.build.require_compiler()
@@ -93,7 +93,7 @@ class Maker:
 
     def _require_generators(self) -> None:
         if not (self.virtual.folder / "share/rosidl_default_generators").is_dir():
-            raise Trouble(
+            raise LauncherTrouble(
                 "This environment has no generators of message types.",
                 f"./roslings ready {GENERATORS}",
             )
@@ -126,7 +126,9 @@ class Maker:
         files = dict(sorted(files_of_package(install, source.name)))
         guilty = [*self._told_of_this_machine(files), *too_new(files)]
         if guilty:
-            raise Trouble(f"Not packed, since it fits this machine alone: {'; '.join(guilty)}")
+            raise LauncherTrouble(
+                f"Not packed, since it fits this machine alone: {'; '.join(guilty)}"
+            )
         archive = archive_of(to, source.name)
         pack(files, archive)
         origin = origin_of(source, self.place.constraints)
@@ -207,7 +209,7 @@ def main() -> int:
         for package in Maker(ROOT, Virtual(Path(sys.prefix))).make(ROOT / BUILT):
             size_kb = package.archive.stat().st_size / 1e3
             say(f"{package.archive.relative_to(ROOT)}: {size_kb:.0f} kB, by {package.made_with}")
-    except Trouble as trouble:
+    except LauncherTrouble as trouble:
         say(str(trouble))
         return 2
     return 0

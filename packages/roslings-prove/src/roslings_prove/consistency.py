@@ -117,18 +117,18 @@ class LabFiles:
         return []
 
     @cached_property
-    def made(self) -> dict[str, Made]:
+    def made(self) -> dict[str, MadeMutant]:
         """Mutant's name to what came of making it."""
         with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
             return {one.name: self._make(one, Path(scratch) / one.name) for one in self.mutants}
 
-    def _make(self, mutant: Mutant, scratch: Path) -> Made:
+    def _make(self, mutant: Mutant, scratch: Path) -> MadeMutant:
         scratch.mkdir()
         try:
             package = mutant.make(self.lab.solution, scratch / "made")
         except DOES_NOT_APPLY:
-            return Made("", tuple(_problems(mutant, self.lab.solution, scratch)))
-        return Made(self.content_of(package), ())
+            return MadeMutant("", tuple(_problems(mutant, self.lab.solution, scratch)))
+        return MadeMutant(self.content_of(package), ())
 
     def content_of(self, package: Path) -> str:
         """Digest of its files. A mutant changes one of them; the others are digested once."""
@@ -161,7 +161,7 @@ class LabFiles:
 
 
 @dataclass(frozen=True)
-class Made:
+class MadeMutant:
     """A mutant that was made once."""
 
     content: str

@@ -18,8 +18,8 @@ from roslings_learn.drills.running import check_many, load
 from roslings_prove.prove import Proof
 
 MOST_TRIES = 3
-"""What this computer could not tell is run again, and what was wrong beside others, alone: a drill
-is judged in a second, and a student runs one at a time."""
+"""What this computer could not tell is run again. What was wrong beside others is run again alone.
+A drill is judged in a second, and a student runs one at a time."""
 
 
 def chosen(words: Sequence[str]) -> list[Drill]:
@@ -30,7 +30,7 @@ def chosen(words: Sequence[str]) -> list[Drill]:
 
 
 @dataclass(frozen=True)
-class Program:
+class DrillProgram:
     """One program of a drill, and what must come of it."""
 
     drill: Drill
@@ -64,15 +64,15 @@ class Program:
         return "" if names in verdict.headline else f"{names!r} is not in: {verdict.headline}"
 
 
-def programs_of(one: Drill, scratch: Path) -> Iterator[Program]:
+def programs_of(one: Drill, scratch: Path) -> Iterator[DrillProgram]:
     """All that is run to prove a drill."""
-    yield Program(one, "starter", one.starter)
-    yield Program(one, "solution", one.solution)
+    yield DrillProgram(one, "starter", one.starter)
+    yield DrillProgram(one, "solution", one.solution)
     if answer := one.card.answer:
         file = scratch / f"{one.name}{one.suffix}"
         text = one.starter.read_text("utf-8")
         file.write_text(re.sub(r"(?m)^ANSWER = .*$", f"ANSWER = {answer.wrong!r}", text), "utf-8")
-        yield Program(one, "wrong answer", file)
+        yield DrillProgram(one, "wrong answer", file)
 
 
 def prove_drills(drills: Sequence[Drill], jobs: int | None = None) -> Iterator[Proof]:
@@ -87,12 +87,12 @@ def prove_drills(drills: Sequence[Drill], jobs: int | None = None) -> Iterator[P
         yield from _proofs(programs, jobs or min(4, (os.cpu_count() or 1) + 1))
 
 
-def _proofs(programs: Sequence[Program], at_once: int) -> Iterator[Proof]:
+def _proofs(programs: Sequence[DrillProgram], at_once: int) -> Iterator[Proof]:
     for one in {each.drill for each in programs}:
         load(one)  # before the first fork: what is loaded in one drill serves the others, too
     left = list(programs)
     for attempt in range(MOST_TRIES):
-        again: list[Program] = []
+        again: list[DrillProgram] = []
         runs = [(each.drill, each.file) for each in left]
         for number, verdict in check_many(runs, at_once if attempt == 0 else 1):
             program, is_open = left[number], verdict.outcome == "inconclusive"

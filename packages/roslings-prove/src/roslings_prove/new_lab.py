@@ -10,7 +10,7 @@ from pathlib import Path
 from roslings import course
 from roslings.course import CourseError, Lab
 from roslings.course.labs import EXAMPLE, example_root
-from roslings.lab_folders import GRADER, GRADERS, folder_beside
+from roslings.folders.lab_folders import GRADER, GRADERS, folder_beside
 from roslings.workspace.sources import files
 
 LAB_NAME, PACKAGE_NAME = re.compile(r"[a-z][a-z0-9-]*"), re.compile(r"[a-z][a-z0-9_]*")
@@ -25,7 +25,7 @@ class CannotMake(CourseError):
 
 
 @dataclass(frozen=True)
-class Names:
+class NewLabNames:
     """What the new lab calls things."""
 
     lab: str
@@ -56,7 +56,7 @@ class Names:
 def new_lab(name: str, package: str | None = None, day: str | None = None) -> Lab:
     """Make the lab: card, task, hints, starter, solution, mutants, grader. Raises CannotMake."""
     _insist_on_example()
-    names = Names(name, package or name.replace("-", "_"), day or _last_day())
+    names = NewLabNames(name, package or name.replace("-", "_"), day or _last_day())
     _insist_on(names)
     folder = course.root() / "labs" / name
     grader = course.root() / GRADERS / f"{GRADER}{name.replace('-', '_')}.py"
@@ -78,7 +78,7 @@ def _insist_on_example() -> None:
         )
 
 
-def _insist_on(names: Names) -> None:
+def _insist_on(names: NewLabNames) -> None:
     if not LAB_NAME.fullmatch(names.lab) or names.lab == EXAMPLE:
         raise CannotMake(
             f"{names.lab!r} is no name for a lab.\nUse small letters, digits and -: line-follower"
@@ -107,7 +107,7 @@ def _last_day() -> str:
     return (_days() or ["03-topics"])[-1]
 
 
-def _copy(example: Path, folder: Path, names: Names) -> None:
+def _copy(example: Path, folder: Path, names: NewLabNames) -> None:
     """Copy the folder with other names in texts and paths."""
     for inside, source in files(example).items():
         target = folder / inside.replace(PACKAGE, names.package)

@@ -14,12 +14,12 @@ from pathlib import Path
 from typing import Protocol
 
 from roslings.course import CourseError, Lab, Mutant
+from roslings.course.grader import Clock
 from roslings.experiment.run_folder import LOCK, run_folder
-from roslings.grader import Clock
 from roslings.judge.sheet import dependants, explained
 from roslings_class.capacity import Capacity
 from roslings_class.gradebook import gradebook
-from roslings_class.result import Order, Result
+from roslings_class.result import GradingOrder, GradingResult
 from roslings_class.scheduler import GradingRequest, Scheduler, Watcher, always
 from roslings_class.submissions import Submission
 from roslings_class.worker_pool import GRADING
@@ -65,7 +65,7 @@ class HasLine(Protocol):
 # --- the packages, and what must come of each --------------------------------------------------
 
 
-class Package(Protocol):
+class ProvenPackage(Protocol):
     """One package of a lab that must get a certain verdict."""
 
     @property
@@ -91,7 +91,7 @@ class Package(Protocol):
     def make(self, folder: Path) -> Path:
         """Where it lies; `folder` is for what has to be made."""
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """What is wrong with a conclusive result; empty where nothing is."""
 
 
@@ -117,7 +117,7 @@ class Solution:
         """It is there."""
         return self.lab.solution
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """Where it loses points."""
         if result.score is None or result.score == 100:
             return ""
@@ -125,7 +125,7 @@ class Solution:
 
 
 @dataclass(frozen=True)
-class Starter:
+class StarterPackage:
     """It does not pass."""
 
     lab: Lab
@@ -146,13 +146,13 @@ class Starter:
         """It is there."""
         return self.lab.starter
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """That it passes."""
         return "it passes: who has done nothing has done the lab" if result.word == "pass" else ""
 
 
 @dataclass(frozen=True)
-class Wrong:
+class MutantPackage:
     """A mutant: it fails in the checks that it names, and in no other."""
 
     lab: Lab
@@ -175,7 +175,7 @@ class Wrong:
         """The solution, injured."""
         return injured(self.lab, self.mutant, folder / self.name)
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """Where its failed checks, their faults, or the skipped ones are others.
 
         What one of the failed checks explains may be skipped besides.
@@ -200,9 +200,13 @@ def injured(lab: Lab, mutant: Mutant, folder: Path) -> Path:
     return folder
 
 
-def packages_of(lab: Lab) -> list[Package]:
+def packages_of(lab: Lab) -> list[ProvenPackage]:
     """All that is graded to prove a lab."""
-    return [Solution(lab), Starter(lab), *(Wrong(lab, mutant) for mutant in lab.mutants())]
+    return [
+        Solution(lab),
+        StarterPackage(lab),
+        *(MutantPackage(lab, mutant) for mutant in lab.mutants()),
+    ]
 
 
 # --- the proofs --------------------------------------------------------------------------------
@@ -214,7 +218,7 @@ def prove(labs: Sequence[Lab], watcher: Watcher, jobs: int | None = None) -> Ite
     yield from gradings_fit(packages, watcher, jobs)
 
 
-def can_be_made(package: Package) -> bool:
+def can_be_made(package: ProvenPackage) -> bool:
     """Whether there is anything to grade."""
     with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
         try:
@@ -225,7 +229,7 @@ def can_be_made(package: Package) -> bool:
 
 
 def gradings_fit(
-    packages: Collection[Package],
+    packages: Collection[ProvenPackage],
     watcher: Watcher,
     jobs: int | None = None,
     still: Callable[[], bool] = always,
@@ -244,15 +248,15 @@ def gradings_fit(
             told.add(result.grader_broke)
 
 
-def mixed(packages: Iterable[Package]) -> list[Package]:
+def mixed(packages: Iterable[ProvenPackage]) -> list[ProvenPackage]:
     """Each lab's packages spread over the whole: beside those that wait, others compute.
 
     The robot of one lab drives in its own time, and the pictures of another fill a processor.
     """
-    of_lab: dict[str, list[Package]] = {}
+    of_lab: dict[str, list[ProvenPackage]] = {}
     for package in packages:
         of_lab.setdefault(package.lab.name, []).append(package)
-    placed = [(n / len(kin), each) for kin in of_lab.values() for n, each in enumerate(kin)]
+    placed = [(n / len(group), each) for group in of_lab.values() for n, each in enumerate(group)]
     return [each for _, each in sorted(placed, key=itemgetter(0))]
 
 
@@ -260,38 +264,38 @@ def mixed(packages: Iterable[Package]) -> list[Package]:
 class _ManyLabs(GradingRequest):
     """Grade each submission for its own lab, by its own clock."""
 
-    packages: Mapping[str, Package] = field(default_factory=dict)
+    packages: Mapping[str, ProvenPackage] = field(default_factory=dict)
 
-    def order(self, submission: Submission, digest: str, attempt: int) -> Order:
+    def order(self, submission: Submission, digest: str, attempt: int) -> GradingOrder:
         """The order for one try of a submission."""
         package = self.packages[submission.name]
         own = {
             "lab": package.lab.name,
             "clock": package.clock,
             "course": package.course,
-            "builds_as_kin": True,
+            "builds_from_cache": True,
             "soak_s": _soak_s_of(package),
         }
         return super().order(submission, digest, attempt).model_copy(update=own)
 
 
-def _soak_s_of(package: Package) -> float:
+def _soak_s_of(package: ProvenPackage) -> float:
     """Nothing is left running but a mutant that shows what is found by that."""
-    shows = isinstance(package, Wrong) and "soak_s" in package.mutant.proves
+    shows = isinstance(package, MutantPackage) and "soak_s" in package.mutant.proves
     return package.lab.card.soak_s if shows else 0.0
 
 
 def graded(
-    packages: Collection[Package],
+    packages: Collection[ProvenPackage],
     scratch: Path,
     watcher: Watcher,
     jobs: int | None,
     *,
     book: str = "book",
     keeps_evidence: bool = False,
-    life: str = GRADING,
+    entry_point: str = GRADING,
     still: Callable[[], bool] = always,
-) -> dict[str, Result]:
+) -> dict[str, GradingResult]:
     """Package's name to what came of it; the gradebook lies in `scratch`, a run's folder."""
     submissions = [Submission(each.name, each.make(scratch / "made")) for each in packages]
     request = _ManyLabs(
@@ -299,7 +303,7 @@ def graded(
         scratch,
         scratch / LOCK,
         keeps_evidence=keeps_evidence,
-        life=life,
+        entry_point=entry_point,
         packages={each.name: each for each in packages},
     )
     (scratch / book).mkdir(exist_ok=True)  # a place outside of the scratch keeps what it has
@@ -312,7 +316,7 @@ def graded(
         return results.latest()
 
 
-def proof_of(package: Package, result: Result, told: Collection[str] = ()) -> Proof:
+def proof_of(package: ProvenPackage, result: GradingResult, told: Collection[str] = ()) -> Proof:
     """Nothing can be said where the machine could not tell, or where nothing was graded.
 
     A mistake of the grader that was `told` is told no second time.
@@ -328,7 +332,7 @@ def proof_of(package: Package, result: Result, told: Collection[str] = ()) -> Pr
     return Proof(package.about, problem, package=package.name)
 
 
-def failing(result: Result) -> str:
+def failing(result: GradingResult) -> str:
     """Which checks fail or are skipped, in one line."""
     failed, skipped = _told(result, "fail"), _told(result, "skip")
     if not failed and skipped:
@@ -336,7 +340,7 @@ def failing(result: Result) -> str:
     return f"it fails: {failed}" if failed else "it passes every check"
 
 
-def _told(result: Result, outcome: str) -> str:
+def _told(result: GradingResult, outcome: str) -> str:
     """The checks with an outcome, and what is said of each."""
     checks = result.verdict.checks if result.verdict else ()
     return "; ".join(

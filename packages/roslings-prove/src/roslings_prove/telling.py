@@ -13,7 +13,7 @@ WIDTH = 80
 INDENT = " " * 7
 
 
-class Told(Protocol):
+class ProofLine(Protocol):
     """A proof, or a number of a lab."""
 
     @property
@@ -21,7 +21,7 @@ class Told(Protocol):
         """It in words."""
 
 
-def told(found: Sequence[Told], *, all_of_them: bool = False) -> Iterator[str]:
+def told(found: Sequence[ProofLine], *, all_of_them: bool = False) -> Iterator[str]:
     """Lines for a terminal: what is wrong stands last, above the numbers."""
     proofs = [each for each in found if isinstance(each, Proof)]
     for proof in sorted(proofs, key=lambda each: not each.holds):

@@ -15,10 +15,10 @@ from pydantic import RootModel
 from roslings.course import Edit, Lab
 from roslings.course.contract import Plain, as_typed
 from roslings.course.files import read_yaml
+from roslings.course.grader import Clock
+from roslings.course.variants import LabVariant, NoVariants, Variants, apply_edit, variants_of
 from roslings.experiment.run_folder import run_folder
-from roslings.grader import Clock
-from roslings.variants import Chosen, NoVariants, Variants, apply_edit, variants_of
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.scheduler import Watcher
 from roslings_prove.prove import Proof, failing, graded, proof_of
 
@@ -59,7 +59,7 @@ class InOwnWords:
                 apply_edit(edit, value, package, self.lab.folder / FILE)
         return package
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """Where it loses points."""
         return "" if result.score in (None, 100) else f"{result.score:g} of 100; {failing(result)}"
 
@@ -82,7 +82,7 @@ class InEverybodysWords(InOwnWords):
         """It is there."""
         return self.lab.solution
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """That it passes."""
         return "it passes: the words of this card are not judged" if result.word == "pass" else ""
 
@@ -102,7 +102,7 @@ def _packages(lab: Lab, folder: Path) -> Iterator[InOwnWords]:
         raise NoVariants(lab)
     edits = read_yaml(lab.folder / FILE, SolutionEdits)
     for number, words in enumerate(all_values(variants)):
-        course = Chosen(lab, variants, words).make(folder / f"{number}")
+        course = LabVariant(lab, variants, words).make(folder / f"{number}")
         yield InOwnWords(lab, words, course, edits)
         yield InEverybodysWords(lab, words, course, edits)
 

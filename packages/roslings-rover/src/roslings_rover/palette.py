@@ -43,8 +43,8 @@ PALETTE = {
     "band": Colour("#cdeed6", "#1d4a2b"),
     "grid": Colour("#e4e7ec", "#2b323c"),
 }
-"""Each text colour has a contrast of at least 4.5 to 1 on `ground`, on `sheet`, and on the fill of
-a node, a topic, a service and an action (WCAG 2.2, 1.4.3)."""
+"""Each text colour has a contrast of at least 4.5 to 1 (WCAG 2.2, 1.4.3). It has it on `ground`, on
+`sheet`, and on the fill of a node, a topic, a service and an action."""
 
 
 def colour_of(name: str, scheme: Scheme = "light") -> str:

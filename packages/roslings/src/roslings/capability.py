@@ -1,8 +1,9 @@
 """What the engine knows of a kind of thing that a robot program does, and where it finds it.
 
 The rooms of the engine call no capability by its name: they ask here. What only one lab needs
-lies beside its grader (`lab_folders.py`), and its `__init__.py` has the `CAPABILITY`. What several
-courses use is a package of its own, with an entry point of the group `roslings.capability`:
+lies beside its grader (`folders/lab_folders.py`), and its `__init__.py` has the `CAPABILITY`. What
+several courses use is a package of its own, with an entry point of the group
+`roslings.capability`:
 
     [project.entry-points."roslings.capability"]
     lifecycle = "my_course.lifecycle:CAPABILITY"
@@ -21,8 +22,8 @@ from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from roslings.course_folder import root
-from roslings.lab_folders import imported, lab_folders, module_of
+from roslings.folders.course_folder import root
+from roslings.folders.lab_folders import imported, lab_folders, module_of
 from roslings.record import PartSeen
 
 R = TypeVar("R", bound=PartSeen)
@@ -48,9 +49,9 @@ class Words:
     """What a card may say of a capability, and how task.md says it to the student."""
 
     node: type[Any] | None = None
-    """Words of a node: a `Contract` whose fields the nodes of every card get."""
+    """Words of a node: `NodeWords` whose fields the nodes of every card get."""
     card: type[Any] | None = None
-    """Words of the package, for every card."""
+    """Words of the package, for every card: `CardWords`."""
     interface: Rows = no_rows
     """From a node: what goes in and out of it."""
     settings: Rows = no_rows

@@ -12,7 +12,7 @@ COMMANDS = (
         "show the running graph, or save a picture of it",
         "roslings.commands.graph",
     ),
-    ("", "rqt_graph", "", "roslings.rqt_graph:main"),
+    ("", "rqt_graph", "", "roslings.commands.rqt_graph:main"),
     ("", "", "what is next", "roslings.commands.today"),
     ("learners", "site", "the lessons, words and quizzes as a website", "roslings.commands.site"),
     ("teachers", "test", "run the tests of roslings", "roslings.commands.test"),

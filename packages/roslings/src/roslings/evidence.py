@@ -1,6 +1,6 @@
 """What was seen of a student's package: the only thing that a check may look at.
 
-What every experiment sees stands here; what only some see, of services or of a cable, is a part of
+What every experiment sees stands here. What only some see, of services or of a cable, is a part of
 it, and its record lies in the room of the capability. This module names none of them, so that every
 room can speak it. Times that end in `_ns` are nanoseconds: `arrival_ns` on the monotonic clock,
 `source_ns` on the publisher's wall clock.
@@ -256,11 +256,11 @@ class StageMark(Record):
 
 
 Kind = Literal["messages", "topics", "rosout", "graph", "requests"]
-"""What evidence can be dropped: messages, topics never listened to, log lines, endpoints and
+"""What evidence can be dropped. It is messages, topics never listened to, log lines, endpoints and
 services of the graph, and what was asked of the grader's own servers."""
 
 
-class Dropped(Record):
+class DroppedSeen(Record):
     """What found no room in the evidence of an experiment, of one kind."""
 
     kind: Kind
@@ -272,6 +272,7 @@ class UnreadablePart(Exception):
     """A part of the evidence was written by a newer capability than the one that is here."""
 
     def __init__(self, name: str, version: int) -> None:
+        self.name, self.version = name, version
         super().__init__(
             f"the evidence of {name} has version {version}, which this roslings cannot read;"
             " bring roslings up to date"
@@ -342,7 +343,7 @@ class ExperimentSeen(Record):
     stuck: list[str] = Field(
         default_factory=list, description="Nodes that ran, and whose callbacks ran no more"
     )
-    dropped: Columns[Dropped] = Field(
+    dropped: Columns[DroppedSeen] = Field(
         default_factory=list, description="What found no room; of a process: see there"
     )
     watching_s: float = 0.0
@@ -358,7 +359,7 @@ class ExperimentSeen(Record):
     stall_s: float = Field(
         default=0.0, description="Longest time for which the observer itself was not run"
     )
-    held_up: dict[str, HeldUp] = Field(
+    held_up: dict[str, HeldUpSeen] = Field(
         default_factory=dict, description="Timed stretch to what this computer took from it"
     )
     devices_wait_s: float = Field(
@@ -408,7 +409,7 @@ def _readable(part: PartSeen, kind: type[P]) -> P:
     return part
 
 
-class HeldUp(Record):
+class HeldUpSeen(Record):
     """What this computer took from a timed stretch of an experiment."""
 
     cpu_wait_s: float = Field(
@@ -502,7 +503,7 @@ Part = Literal["reading", "building", "starting", "watching", "ending", "judging
 """What a grading does with its time."""
 
 
-class Span(Record):
+class GradingSpan(Record):
     """A stretch of time that a grading took for one part of its work; no check looks at it."""
 
     part: Part
@@ -526,7 +527,9 @@ class Evidence(Record):
     )
     soak: SoakSeen | None = Field(default=None, description="None where none was made")
     advice: list[str] = Field(default_factory=list)
-    timeline: Columns[Span] = Field(default_factory=list, description="Where the seconds went")
+    timeline: Columns[GradingSpan] = Field(
+        default_factory=list, description="Where the seconds went"
+    )
 
     model_config = ConfigDict(
         extra="forbid", validate_by_name=True, validate_by_alias=True, ser_json_inf_nan="strings"

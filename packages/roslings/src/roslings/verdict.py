@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, JsonValue
 
 SCHEMA_VERSION = 1
 
@@ -39,12 +39,39 @@ class CheckResult(Frozen):
         default=None, description="What mends it; shown with the last of the hints"
     )
     fault: str | None = Field(default=None, description="The kind of fault, e.g. `WrongTopic`")
+    fields: dict[str, JsonValue] = Field(
+        default_factory=dict,
+        description="What was found, by name; programs compare this, sentences are for people",
+    )
     lesson: str | None = Field(default=None, description="Anchor of the lesson's paragraph")
     log: tuple[str, ...] = Field(default=(), description="The node's last lines, where they help")
     hidden: bool = Field(default=False, description="Students do not have this check")
     hints: tuple[str, ...] = Field(
         default=(), description="Three steps: where to look, which idea, the idea in other code"
     )
+
+    # What a program asks of a fault stands here: it looks at fields, and never at sentences.
+
+    @property
+    def asked_rate(self) -> tuple[str | None, float] | None:
+        """Topic and Hz of a rate that was asked for and not met; None where it is about no rate.
+
+        The topic is the one that was measured; None where the fault does not name it.
+        """
+        rhythm = self.fields.get("rhythm")
+        fields = rhythm if isinstance(rhythm, dict) else self.fields
+        topic, hz = fields.get("topic"), fields.get("wanted_hz")
+        if not isinstance(hz, int | float):
+            return None
+        return topic if isinstance(topic, str) else None, hz
+
+    @property
+    def exit_code(self) -> int | None:
+        """The exit code of the process that it is about; None for a signal, and for no process."""
+        went = self.fields.get("went")
+        end = (went if isinstance(went, dict) else self.fields).get("end")
+        status = end.get("status") if isinstance(end, dict) else None
+        return status if isinstance(status, int) and status >= 0 else None
 
 
 class Timings(Frozen):

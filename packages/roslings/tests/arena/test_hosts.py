@@ -15,7 +15,7 @@ import pytest
 from roslings.arena import hosts, kernel
 from roslings.arena.hosts import NoHosts, two_hosts
 from roslings.arena.isolation import BARE, ENTER
-from roslings.arena.link import Link
+from roslings.arena.link import EmulatedLink
 from skips import skip_without
 
 ROOT = Path(hosts.__file__).parents[2]
@@ -201,7 +201,7 @@ def test_a_packet_waits_for_its_time() -> None:
     other, far = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
     with ours, theirs, other, far:
         theirs.setblocking(False)
-        link = Link((theirs.fileno(), other.fileno()), delay_s=0.5, loss=0.0, seed=0)
+        link = EmulatedLink((theirs.fileno(), other.fileno()), delay_s=0.5, loss=0.0, seed=0)
         far.setblocking(False)
         packet = bytes([0x45, *[0] * 8, 17, *[0] * 6, 10, 20, 30, 2, *[0] * 8])
         ours.send(packet)

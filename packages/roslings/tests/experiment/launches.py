@@ -18,7 +18,7 @@ from roslings.capabilities.launch.contract import LaunchContract
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Scene, experiment
 from roslings.experiment.assignment import Assignment
-from roslings.experiment.measuring import Stage, run_all
+from roslings.experiment.measuring import MeasuringContext, run_all
 
 NAMES = ("left", "right")
 NODE = f"""\
@@ -61,7 +61,7 @@ def main(file: Path, wall: Wall) -> None:
         order = Assignment(lab="p", seed=1, wall=wall, folder=home)
         order.make_folders()
         os.environ.update(ros_environment(order.wall), ROS_LOG_DIR=str(home / "log"))
-        stage = Stage(installed(file, home), order, 2.0)
+        stage = MeasuringContext(installed(file, home), order, 2.0)
         (seen,) = run_all(stage, [together])["together"]
     print(seen.model_dump_json())
 

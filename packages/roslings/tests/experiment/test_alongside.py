@@ -8,10 +8,10 @@ from collections.abc import Sequence
 import pytest
 
 from ros2_on_pip.domain_lease import leased_domain
+from roslings.course.grader import Experiment, experiment
 from roslings.evidence import ExperimentSeen
 from roslings.experiment.alongside import Alongside, Runs
 from roslings.experiment.turns import Turns
-from roslings.grader import Experiment, experiment
 from roslings.probe.probe import CalledOff, Probe
 
 LONG_S = 60.0

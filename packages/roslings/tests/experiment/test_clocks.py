@@ -11,12 +11,12 @@ from watching import HERE, RATE, TOPIC, watched
 
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.topics.demands import have_rate
+from roslings.course.grader import Clock
 from roslings.evidence import ExperimentSeen
 from roslings.experiment.clock_advice import advice_on_clocks
 from roslings.experiment.watching import ENDED
-from roslings.grader import Clock
 from roslings.judge import come_up, stay_up
-from roslings.judge.dropped import Looks, watched_experiment
+from roslings.judge.dropped import LookedAt, watched_experiment
 from roslings.judge.faults import Fault, Inconclusive
 from roslings.judge.views import ExperimentView
 from until_told import until_told
@@ -54,7 +54,7 @@ CLOCKS: tuple[Clock, ...] = ("auto", "wall")
 
 def answer(runs: Sequence[ExperimentSeen]) -> str:
     """What a check on the rate says of the run that counts."""
-    looks = Looks()
+    looks = LookedAt()
     error = looks.outcome(_error(watched_experiment(runs[-1], looks)))
     if isinstance(error, Inconclusive):
         return "inconclusive"

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 from watching import HERE, NODE, watched
 
+from roslings.course.grader import Clock
 from roslings.evidence import Ending, ExperimentSeen, ProcessSeen
 from roslings.experiment import Scene, experiment
 from roslings.experiment.measuring import doubtful
-from roslings.grader import Clock
 from roslings.judge import end_within, exit_cleanly
 from roslings.judge.faults import Inconclusive, UncleanExit
 from roslings.judge.views import ExperimentView, ProcessView

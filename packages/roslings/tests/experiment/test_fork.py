@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from roslings.course import lab
-from roslings.experiment import Choices, MeasuringFailed, measure
+from roslings.experiment import MeasuringFailed, MeasuringOptions, measure
 from roslings.experiment.preload import load_beforehand
 from roslings.workspace.inspect import inspect_package
 
 TOPICS = lab("topics")
 SEEN = inspect_package(TOPICS.solution, TOPICS.card)
-CHOICES = Choices(seed=1)
+CHOICES = MeasuringOptions(seed=1)
 
 
 class EnoughError(Exception):

@@ -10,7 +10,7 @@ from ros2_on_pip.rates import Rate
 from roslings.course import RateContract
 from roslings.evidence import CanarySeen, ExperimentSeen, MessageSeen, ProcessSeen
 from roslings.experiment.on_the_wall import trouble
-from roslings.rates import own_rate
+from roslings.seen.rates import own_rate
 
 LIMIT = RateContract(hz=2.0, within=0.02)
 

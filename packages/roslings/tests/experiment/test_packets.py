@@ -12,7 +12,7 @@ import pytest
 from ros2_on_pip.rtps import PORTS_PER_DOMAIN, ports_of
 from roslings.experiment.packets import (
     MOST_SAMPLES,
-    Heard,
+    SentSamples,
     rtps_of,
     samples_in,
     tapped,
@@ -70,7 +70,7 @@ def announcement(topic: str, order: str = "<") -> bytes:
 @pytest.mark.parametrize("order", ["<", ">"])
 def test_times_are_of_the_topic_alone(order: str) -> None:
     """Its writer's samples, each once, though it was sent again."""
-    heard = Heard()
+    heard = SentSamples()
     heard.add(udp(announcement("rt/chatter", order)), DOMAIN, 0)
     for at, number in ((1, 1), (2, 2), (3, 2), (4, 3)):
         heard.add(udp(data(WRITER, number, b"\0\1\0\0", order)), DOMAIN, at * S)
@@ -81,7 +81,7 @@ def test_times_are_of_the_topic_alone(order: str) -> None:
 
 def test_inline_settings_are_passed_over() -> None:
     """An announcement may have some before its list."""
-    heard = Heard()
+    heard = SentSamples()
     inline = struct.pack("<HH4sHH", 0x71, 4, bytes(4), 1, 0)
     name = struct.pack("<I", 11) + b"rt/chatter\0\0"
     listed = struct.pack("<HH", 0x05, len(name)) + name
@@ -104,18 +104,18 @@ def test_no_packet_breaks_it() -> None:
     whole = [udp(announcement("rt/chatter")), udp(data(WRITER, 1, b"\0\1\0\0"))]
     for packet in whole:
         for length in range(len(packet)):
-            Heard().add(packet[:length], DOMAIN, 0)
+            SentSamples().add(packet[:length], DOMAIN, 0)
         for _ in range(3000):
             changed = bytearray(packet)
             for place in dice.sample(range(len(packet)), 3):
                 changed[place] = dice.randrange(256)
-            Heard().add(bytes(changed), DOMAIN, 0)
+            SentSamples().add(bytes(changed), DOMAIN, 0)
     assert [*samples_in(b"RTPS" + b"\0" * 200)] == []
 
 
 def test_a_flood_is_bounded() -> None:
     """Its beginning is kept: that tells its pace."""
-    heard = Heard()
+    heard = SentSamples()
     heard.add(udp(announcement("rt/chatter")), DOMAIN, 0)
     for number in range(MOST_SAMPLES + 50):
         heard.add(udp(data(WRITER, number, b"")), DOMAIN, number)
@@ -128,10 +128,10 @@ def test_what_goes_over_the_loopback_is_heard() -> None:
         if tap is None:
             skip_without("packets of the loopback")
         assert tap
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as mouth:
-            mouth.sendto(announcement("rt/chatter"), ("127.0.0.1", PORT))
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            sender.sendto(announcement("rt/chatter"), ("127.0.0.1", PORT))
             for number in (1, 2, 3):
-                mouth.sendto(data(WRITER, number, b"\0\1\0\0"), ("127.0.0.1", PORT))
+                sender.sendto(data(WRITER, number, b"\0\1\0\0"), ("127.0.0.1", PORT))
         end_s = time.monotonic() + PATIENCE_S
         while len(tap.sent_ns("/chatter")) < 3 and time.monotonic() < end_s:
             time.sleep(0.01)

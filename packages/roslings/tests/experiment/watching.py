@@ -17,11 +17,11 @@ from pydantic import TypeAdapter
 from roslings.arena import Installed, Wall, choose_isolation, ros_environment
 from roslings.arena.environment import base_environment
 from roslings.course import NodeContract, RateContract, TopicContract
+from roslings.course.grader import Clock
 from roslings.evidence import ExperimentSeen
 from roslings.experiment import Scene, experiment
 from roslings.experiment.assignment import Assignment
-from roslings.experiment.measuring import Stage, run_all
-from roslings.grader import Clock
+from roslings.experiment.measuring import MeasuringContext, run_all
 
 HERE = Path(__file__).parent
 RATE = RateContract(hz=2.0, within=0.05)
@@ -58,7 +58,7 @@ def main(script: Path, clock: Clock, wall: Wall, limit: RateContract) -> None:
         order = Assignment(lab="p", seed=1, wall=wall, clock=clock, folder=home)
         order.make_folders()
         os.environ.update(ros_environment(order.wall), ROS_LOG_DIR=str(home / "log"))
-        stage = Stage(installed(script, home), order, 2.0)
+        stage = MeasuringContext(installed(script, home), order, 2.0)
         runs = run_all(stage, [talking])["talking"]
     print(RUNS.dump_json(runs).decode())
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen
-from roslings.exits import must_end_again
 from roslings.judge import end_within, exit_cleanly
 from roslings.judge.faults import DoesNotEnd, Inconclusive, UncleanExit
 from roslings.judge.views import ProcessView
+from roslings.seen.exits import must_end_again
 
 ALREADY = "RCLError: failed to shutdown: rcl_shutdown already called on the given context"
 

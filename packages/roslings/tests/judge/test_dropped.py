@@ -8,7 +8,7 @@ import pytest
 from real_run import evidence_of_solution
 
 from roslings.course import lab
-from roslings.evidence import Dropped, Evidence
+from roslings.evidence import DroppedSeen, Evidence
 from roslings.judge import judge
 from roslings.verdict import Verdict
 
@@ -50,21 +50,21 @@ def whole_topic(seen: Evidence) -> None:
     """The topic was one of many, and nobody listened to it."""
     talking = seen.experiments["talking"]
     del talking.topics["/chatter"]
-    talking.dropped = [Dropped(kind="topics", count=300)]
+    talking.dropped = [DroppedSeen(kind="topics", count=300)]
 
 
 def endpoints(seen: Evidence) -> None:
     """A part of the graph."""
-    seen.experiments["together"].dropped = [Dropped(kind="graph", count=9)]
+    seen.experiments["together"].dropped = [DroppedSeen(kind="graph", count=9)]
 
 
 @pytest.mark.parametrize(
     ("drop", "unclear", "words"),
     [
         (last_messages, {"rate", "text", "counting", "talker_logs"}, "7 messages on /chatter"),
-        (contents, {"text", "counting", "talker_logs"}, "1 messages on /chatter hold"),
+        (contents, {"text", "counting", "talker_logs"}, "1 message on /chatter holds"),
         (whole_topic, {"rate", "text", "counting", "talker_logs"}, "300 topics of 'talking'"),
-        (endpoints, {"together"}, "9 names and endpoints"),
+        (endpoints, {"together"}, "9 names, publishers and subscriptions"),
     ],
 )
 def test_no_check_passes_that_rests_on_what_was_dropped(
@@ -92,7 +92,7 @@ def test_a_fault_that_was_seen_stands(whole: Evidence) -> None:
 def lost_lines(seen: Evidence) -> None:
     """Of the log and of the terminal, a part."""
     talking = seen.experiments["talking"]
-    talking.dropped = [Dropped(kind="rosout", count=4)]
+    talking.dropped = [DroppedSeen(kind="rosout", count=4)]
     talking.processes["talker"].output_dropped_bytes = 5
 
 

@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 
 from ros2_on_pip.errors import INCONCLUSIVE
-from roslings.checking import mistakes_told
 from roslings.course import Lab, lab
+from roslings.course.grader import load_grader
 from roslings.evidence import Evidence, MachineSeen
 from roslings.experiment import MeasuringFailed
-from roslings.grader import load_grader
+from roslings.grading.checking import mistakes_told
 from roslings.judge import GraderBroke, judge
 from roslings.judge.grader_mistakes import mistake_in, mistake_of, why_it_broke_off
 from roslings.judge.loaded import judge_loaded

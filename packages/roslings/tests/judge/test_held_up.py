@@ -17,12 +17,12 @@ from roslings.capabilities.services.contract import ServiceContract
 from roslings.capabilities.services.demands import answer_in_time, give_up
 from roslings.capabilities.services.record import CLIENT_ENDS, CallSeen
 from roslings.course import NodeContract
-from roslings.evidence import HeldUp, ProcessSeen, StageMark
+from roslings.evidence import HeldUpSeen, ProcessSeen, StageMark
 from roslings.experiment.own_time import PATIENCE_S
 from roslings.judge import ExperimentView, Inconclusive
 from roslings.judge.demands import require_its_time
 from roslings.judge.faults import Fault, NothingToJudge
-from roslings_rover.board import Drive
+from roslings_rover.board import DriveCommand
 from seen_with import seen_with
 
 S = 10**9
@@ -48,7 +48,7 @@ NODE = NodeContract.model_validate(
 def view(part: str, held_s: float, ended_ns: int | None = None, **seen: Any) -> ExperimentView:
     """An experiment in which this part was held up for so long."""
     process = ProcessSeen(executable="it", started_ns=0, ended_ns=ended_ns)
-    held = {part: HeldUp(cpu_wait_s=held_s, stall_s=0.0)}
+    held = {part: HeldUpSeen(cpu_wait_s=held_s, stall_s=0.0)}
     words = {"processes": {"it": process}, "held_up": held, **seen}
     return ExperimentView(seen_with(name="x", clock="wall", **words))
 
@@ -100,8 +100,8 @@ def board(*, stops_at_s: float | None = None) -> BoardSeen:
     mark = BoardMark(
         part="on", arrival_ns=0, board_s=1.0, x_m=0, y_m=0, heading_rad=0, left_pwm=9, right_pwm=9
     )
-    commands = [(0.5, Drive(1, 100, 100))]
-    commands += [(stops_at_s, Drive(2, 0, 0))] if stops_at_s else []
+    commands = [(0.5, DriveCommand(1, 100, 100))]
+    commands += [(stops_at_s, DriveCommand(2, 0, 0))] if stops_at_s else []
     heard = [
         CableLine(board_s=at, sent_ns=0, text=drive.line().decode().strip())
         for at, drive in commands
@@ -175,7 +175,7 @@ def test_a_node_that_says_nothing_about_its_camera(held_s: float, is_told: bool)
 def test_the_worst_of_all_parts_counts_where_none_is_named() -> None:
     """A stretch that was not held up does not hide the others."""
     seen = view("one", 0.1).seen
-    seen.held_up["two"] = HeldUp(cpu_wait_s=0.2, stall_s=0.3)
+    seen.held_up["two"] = HeldUpSeen(cpu_wait_s=0.2, stall_s=0.3)
     require_its_time(seen, "two", 0.6, "it")
     with pytest.raises(Inconclusive, match=r"0\.50 s"):
         require_its_time(seen, None, 0.4, "it")

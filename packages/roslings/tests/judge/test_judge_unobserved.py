@@ -12,7 +12,7 @@ from roslings.judge.faults import Fault, Inconclusive
 from roslings.judge.faults.unobserved import SpeaksOnlyWhenObserved, WritesWhatWasNotSent
 from roslings.judge.unobserved import speak_unobserved
 from roslings.judge.views import ExperimentView
-from roslings.log_rates import written_hz
+from roslings.seen.log_rates import written_hz
 
 CARD = lab("topics").card
 TALKER, LISTENER = CARD.node("talker"), CARD.node("listener")

@@ -6,7 +6,7 @@ import pytest
 
 from ros2_on_pip.near_names import nearest
 from roslings.evidence import Endpoint, GraphSeen, Qos
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 
 STRING = "std_msgs/msg/String"
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from ros2_on_pip.near_names import nearest
+from roslings.judge.faults import WrongNodeName
 from roslings.judge.faults.files import SyntaxErrorInCode
 from roslings.judge.faults.python_words import hint_for, mend_for
 from roslings.workspace import code
@@ -156,4 +157,5 @@ def test_one_letter_is_named(name: str, slip: str) -> None:
     """/alve and /alive look alike."""
     near = nearest("/alive", [name])
     assert near is not None
-    assert near.slip == slip
+    said = f"there is no /alive, but {name} is running: a spelling mistake?"
+    assert WrongNodeName(near).measured == f"{said} {slip}".rstrip()

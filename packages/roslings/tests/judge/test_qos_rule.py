@@ -6,7 +6,7 @@ import itertools
 
 import pytest
 
-from roslings.judge.faults import EndpointKind, Matched, qos_conflicts
+from roslings.judge.faults import EndpointKind, MatchedPolicies, qos_conflicts
 from skips import imported
 
 RELIABILITY, DURABILITY = ("reliable", "best_effort"), ("volatile", "transient_local")
@@ -31,5 +31,5 @@ def test_it_is_rclpys_own_rule(
 
     pair = (ours, theirs) if kind == "publisher" else (theirs, ours)
     compatible, _ = qos.qos_check_compatible(profile(pair[0]), profile(pair[1]))
-    conflicts = qos_conflicts(kind, Matched(*ours), Matched(*theirs))
+    conflicts = qos_conflicts(kind, MatchedPolicies(*ours), MatchedPolicies(*theirs))
     assert (not conflicts) == (compatible != qos.QoSCompatibility.ERROR)

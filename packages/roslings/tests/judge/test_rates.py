@@ -10,7 +10,7 @@ import pytest
 from judge_messages import EPOCH_NS, MS, messages
 from ros2_on_pip.rates import Rate, lateness_s, measure_rate
 from roslings.evidence import CanarySeen, ExperimentSeen, ProcessSeen, Segment, Tick
-from roslings.rates import in_the_watch, measure_simulated_rate, own_rate, place_on_ticks
+from roslings.seen.rates import in_the_watch, measure_simulated_rate, own_rate, place_on_ticks
 
 
 def grid(period_ms: float, count: int) -> list[float]:

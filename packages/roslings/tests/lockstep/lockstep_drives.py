@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import tempfile
+import threading
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -14,7 +15,13 @@ from ros2_on_pip.domain_lease import leased_domain
 from roslings.arena import ros_environment
 from roslings.arena.companion import Surroundings
 from roslings.arena.environment import base_environment
-from roslings.lockstep import Budget, Drive, Plan, drive_beside
+from roslings.lockstep import (
+    DriveBudget,
+    LockstepDrive,
+    LockstepPlan,
+    RealTimePlan,
+    drive_beside,
+)
 
 FOLLOWERS = Path(__file__).parent / "followers"
 ROOM = 17
@@ -35,49 +42,74 @@ class Crew:
 TIMER = Crew(("by_timer",), ("/follower",))
 SCAN = Crew(("by_scan",), ("/follower",))
 GOAL = Crew(("by_goal",), ("/driver", "/asker"))
+TICK = Crew(("by_tick",), ("/driver",))
 AWAIT = Crew(("by_await",), ("/follower",))
 CHAIN = Crew(("eye", "pilot"), ("/eye", "/pilot"))
-CREWS = {"timer": TIMER, "scan": SCAN, "goal": GOAL, "await": AWAIT, "chain": CHAIN}
+CREWS = {"timer": TIMER, "scan": SCAN, "goal": GOAL, "tick": TICK, "await": AWAIT, "chain": CHAIN}
 
 
 def driven(
     crew: Crew,
     *,
     length_s: float = 10.0,
-    budget: Budget | None = None,
+    budget: DriveBudget | None = None,
     scan_every_ticks: int = 4,
     discovery_s: float = 60.0,
-) -> Drive:
+) -> LockstepDrive:
     """One drive, with a domain of its own: nodes that were killed linger in discovery."""
-    with tempfile.TemporaryDirectory() as folder, leased_domain() as domain:
-        home = Path(folder)
-        environment = {
-            **base_environment(home),
-            **ros_environment("domain"),
-            "ROS_DOMAIN_ID": str(domain),
-        }
-        with started(crew, environment) as pids:
-            plan = Plan(
-                room=ROOM,
-                pids=tuple(pids),
-                nodes=crew.nodes,
-                length_s=length_s,
-                budget=budget or Budget(),
-                scan_every_ticks=scan_every_ticks,
-                discovery_s=discovery_s,
-            )
-            return drive_beside(plan, Surroundings(environment), home)
+    with in_a_domain() as (home, environment), started(crew, environment) as pids:
+        plan = LockstepPlan(
+            room=ROOM,
+            pids=tuple(pids),
+            nodes=crew.nodes,
+            length_s=length_s,
+            budget=budget or DriveBudget(),
+            scan_every_ticks=scan_every_ticks,
+            discovery_s=discovery_s,
+        )
+        return drive_beside(plan, Surroundings(environment), home)
+
+
+def driven_in_real_time(
+    crew: Crew,
+    *,
+    length_s: float = 5.0,
+    discovery_s: float = 60.0,
+    called_off: threading.Event | None = None,
+) -> LockstepDrive:
+    """The same by the wall clock, which the nodes follow, too."""
+    with in_a_domain() as (home, environment), started(crew, environment, simulated=False):
+        plan = RealTimePlan(room=ROOM, length_s=length_s, discovery_s=discovery_s)
+        return drive_beside(plan, Surroundings(environment), home, called_off)
 
 
 @contextmanager
-def started(crew: Crew, environment: dict[str, str]) -> Iterator[Sequence[int]]:
+def in_a_domain() -> Iterator[tuple[Path, dict[str, str]]]:
+    """A folder, and the environment of all that runs."""
+    with tempfile.TemporaryDirectory() as folder, leased_domain() as domain:
+        home = Path(folder)
+        yield (
+            home,
+            {
+                **base_environment(home),
+                **ros_environment("domain"),
+                "ROS_DOMAIN_ID": str(domain),
+            },
+        )
+
+
+@contextmanager
+def started(
+    crew: Crew, environment: dict[str, str], simulated: bool = True
+) -> Iterator[Sequence[int]]:
     """Its programs, until the block ends."""
-    more = [word for each in crew.parameters for word in ("-p", each)]
+    given = [word for each in crew.parameters for word in ("-p", each)]
+    more = [*(FOLLOWS_THE_CLOCK if simulated else ["--ros-args"]), *given]
     with ExitStack() as ends:
         pids = []
         for program in crew.programs:
             file = FOLLOWERS / f"{program}.py"
-            words = [sys.executable, str(file), *FOLLOWS_THE_CLOCK, *more]
+            words = [sys.executable, str(file), *more]
             process = subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL)
             ends.callback(process.wait, ENDS_WITHIN_S)
             ends.callback(process.kill)

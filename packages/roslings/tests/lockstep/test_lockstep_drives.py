@@ -5,12 +5,13 @@ Each drive is of ten robot seconds, in a domain of its own.
 
 from __future__ import annotations
 
+import threading
 from itertools import pairwise
 
 import pytest
-from lockstep_drives import CREWS, SCAN, TIMER, Crew, driven
+from lockstep_drives import CREWS, SCAN, TIMER, Crew, driven, driven_in_real_time
 
-from roslings.lockstep import Budget, Drive, drive_twice
+from roslings.lockstep import DriveBudget, LockstepDrive, NoDrive, drive_twice
 
 pytestmark = pytest.mark.slow
 
@@ -20,11 +21,11 @@ COMPUTING_LONG = Crew(("computing",), ("/follower",), ("computes_s:=0.7",))
 SLEEPER = Crew(("sleeper",), ("/follower",))
 RESTLESS = Crew(("restless",), ("/follower",))
 LEAVER = Crew(("leaver",), ("/follower",))
-PATIENT = Budget(computing_s=20.0, cap_s=60.0, room_s=300.0)
+PATIENT = DriveBudget(computing_s=20.0, cap_s=60.0, room_s=300.0)
 """A machine that does other work, too, may hold a node up for longer than it computes."""
 
 
-def commands_said(drive: Drive) -> list[tuple[int, float]]:
+def commands_said(drive: LockstepDrive) -> list[tuple[int, float]]:
     """The tick of each command, and its speed."""
     return [
         (number, round(command.forward_m_s, 6))
@@ -70,7 +71,7 @@ def test_computing_within_the_budget_costs_no_tick() -> None:
 
 def test_computing_beyond_it_is_not_free() -> None:
     """Robot time goes on: the command counts at a later tick, and the tick says so."""
-    allowed = Budget(computing_s=0.3, cap_s=60.0, room_s=300.0)
+    allowed = DriveBudget(computing_s=0.3, cap_s=60.0, room_s=300.0)
     drive = driven(COMPUTING_LONG, length_s=3.0, budget=allowed)
     assert (drive.end, drive.why) == ("done", "")
     late = [number for number, tick in enumerate(drive.ticks) if tick.late]
@@ -88,13 +89,14 @@ def test_who_sleeps_on_the_wall_clock_is_named() -> None:
     assert believed.second is None
     (sleeper,) = believed.first.sleepers
     assert believed.why_not == sleeper.words
+    assert sleeper.thread == ""
     assert "its main thread" in sleeper.words
     assert "judged in real time" in sleeper.words
 
 
 def test_what_never_waits_is_refused() -> None:
     """By the cap, and the words tell what to look for."""
-    drive = driven(RESTLESS, budget=Budget(computing_s=0.2, cap_s=2.0))
+    drive = driven(RESTLESS, budget=DriveBudget(computing_s=0.2, cap_s=2.0))
     assert drive.end == "never quiet"
     assert drive.why.startswith("After ")
     assert "`spin_once(timeout_sec=0)`" in drive.why
@@ -117,9 +119,9 @@ def test_a_node_that_is_not_there_is_named() -> None:
 
 def test_a_room_has_its_time() -> None:
     """Whoever computes for each command uses it up."""
-    drive = driven(COMPUTING, budget=Budget(room_s=0.5))
+    drive = driven(COMPUTING, budget=DriveBudget(room_s=0.5))
     assert drive.end == "over budget"
-    assert "0.5 s of wall time for this room were over" in drive.why
+    assert "have computed for more than 0.5 s after" in drive.why
 
 
 def test_a_follower_is_believed() -> None:
@@ -129,3 +131,29 @@ def test_a_follower_is_believed() -> None:
     assert believed.second
     assert believed.second.wall_s > believed.first.wall_s
     assert believed.second.commands == believed.first.commands
+
+
+@pytest.mark.parametrize("crew", [SLEEPER, TIMER], ids=["sleeper", "timer"])
+def test_real_time_drives_whoever_there_is(crew: Crew) -> None:
+    """Who sleeps, and who does not: the rover goes as it is told, and each tick is there."""
+    drive = driven_in_real_time(crew)
+    assert (drive.end, drive.why, drive.room) == ("done", "", 17)
+    assert len(drive.ticks) == 100
+    assert drive.way_m > 0.1
+    assert len(commands_said(drive)) > 10
+    assert drive.sleepers == ()
+    assert drive.stall_s > 0
+
+
+def test_where_nobody_drives_the_rover_stands() -> None:
+    """It starts all the same, when nobody has come for long."""
+    drive = driven_in_real_time(LEAVER, length_s=1.0, discovery_s=3.0)
+    assert len(drive.ticks) == 20
+
+
+def test_a_drive_is_called_off() -> None:
+    """Whoever waits for it is told."""
+    called_off = threading.Event()
+    called_off.set()
+    with pytest.raises(NoDrive, match="called off"):
+        driven_in_real_time(TIMER, called_off=called_off)

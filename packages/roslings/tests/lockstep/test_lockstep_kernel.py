@@ -12,10 +12,20 @@ from pathlib import Path
 
 import pytest
 
-from roslings.lockstep.asleep import Call, Watch, by_function, stands_in
-from roslings.lockstep.quiet import Account, Gone, NoAccount, Stat, Thread, slices_of
+from roslings.lockstep.asleep import SystemCall, Watch, by_function, stands_in
+from roslings.lockstep.quiet import (
+    Gone,
+    NoAccount,
+    Stat,
+    Thread,
+    ThreadAccount,
+    longest_run_s,
+    ran_ns_of,
+    slices_of,
+    used_s_of,
+)
 
-LONG_S = 30.0
+LONG_S = 120.0
 STAT = (
     b"25861 (sleep) S 25859 25859 19295 0 -1 4194304 130 0 0 0 0 0 0 0 20 0 1 0 291875 2990080 411 "
     b"18446744073709551615 93850525982720 93850526000649 140720563706960 0 0 0 0 6 0 1 0 0 17 1 0 "
@@ -74,6 +84,20 @@ def test_a_name_may_hold_anything(name: str) -> None:
 def test_time_slices_are_the_third_number() -> None:
     """After the time on a processor and the time of waiting for one."""
     assert slices_of(b"1518928 449062 17\n") == 17
+    assert ran_ns_of(b"1518928 449062 17\n") == 1518928
+
+
+def test_the_longest_run_is_that_of_one_thread() -> None:
+    """One that is new began at nothing; one that has ended counts no more."""
+    assert longest_run_s({1: 5, 2: 10**9}, {1: 10**9, 2: 3 * 10**9, 3: 10**9}) == 2.0
+    assert longest_run_s({1: 5}, {}) == 0.0
+
+
+def test_what_a_process_has_used_is_in_ticks() -> None:
+    """Its own time, that of the kernel for it, and both of its children that have ended."""
+    text = STAT.replace(b" 130 0 0 0 0 0 0 0 ", b" 130 7 7 7 100 20 3 1 ")
+    assert used_s_of(text) == pytest.approx(124 / os.sysconf("SC_CLK_TCK"))
+    assert used_s_of(STAT) == 0.0
 
 
 @pytest.mark.parametrize(
@@ -92,7 +116,7 @@ def test_time_slices_are_the_third_number() -> None:
 )
 def test_where_a_thread_stands(text: str, machine: str, stands: str) -> None:
     """A sleep is named, a wait with a time-out is another thing."""
-    call = Call.of(text)
+    call = SystemCall.of(text)
     assert call
     assert call.stands(machine) == stands
 
@@ -100,34 +124,50 @@ def test_where_a_thread_stands(text: str, machine: str, stands: str) -> None:
 @pytest.mark.parametrize("text", ["running\n", "-1 0x7ffe 0x7f11\n", ""])
 def test_a_thread_that_runs_stands_nowhere(text: str) -> None:
     """Nor one that the kernel holds outside of a call."""
-    assert Call.of(text) is None
+    assert SystemCall.of(text) is None
 
 
 def test_who_waits_is_quiet() -> None:
     """However long one looks."""
-    with program(WAITS) as process, Account([process.pid], ours=False) as account:
+    with program(WAITS) as process, ThreadAccount([process.pid], ours=False) as account:
         account.check()
         assert account.is_quiet_within(LONG_S)
         assert account.look().busy == ()
+        assert account.is_quiet_within(0.0), "two looks are taken, however late the first one is"
 
 
 def test_who_works_is_not() -> None:
     """It is named."""
-    with program(WORKS) as process, Account([process.pid], ours=False) as account:
+    with program(WORKS) as process, ThreadAccount([process.pid], ours=False) as account:
         account.check()
         assert not account.is_quiet_within(0.3)
         assert account.look().busy
 
 
+def test_who_works_has_a_processor_and_who_waits_has_none() -> None:
+    """However busy the machine is: nobody's waiting for a processor is in it."""
+    with program(WORKS) as process, ThreadAccount([process.pid], ours=False) as account:
+        account.check()
+        before, used_s = account.ran_ns(), account.used_s()
+        assert until(lambda: longest_run_s(before, account.ran_ns()) > 0.01)
+        assert until(lambda: account.used_s() > used_s)
+    with program(WAITS) as process, ThreadAccount([process.pid], ours=False) as account:
+        assert account.is_quiet_within(LONG_S)
+        before, used_s = account.ran_ns(), account.used_s()
+        assert account.is_quiet_within(LONG_S)
+        assert longest_run_s(before, account.ran_ns()) < 0.05
+        assert account.used_s() - used_s < 0.05
+
+
 def test_a_child_at_work_counts() -> None:
     """A launch file's nodes are its children."""
-    with program(FORKS) as process, Account([process.pid], ours=False) as account:
+    with program(FORKS) as process, ThreadAccount([process.pid], ours=False) as account:
         assert not account.is_quiet_within(0.3)
 
 
 def test_who_has_ended_is_gone() -> None:
     """Also in the middle of a watch."""
-    with program(LEAVES) as process, Account([process.pid], ours=False) as account:
+    with program(LEAVES) as process, ThreadAccount([process.pid], ours=False) as account:
         assert account.is_quiet_within(LONG_S)
         assert process.stdin
         process.stdin.close()
@@ -144,7 +184,7 @@ def test_who_has_ended_is_gone() -> None:
 
 def test_without_proc_there_is_no_account(tmp_path: Path) -> None:
     """As on macOS: the caller takes real time, and says so."""
-    with Account([os.getpid()], tmp_path) as account, pytest.raises(NoAccount) as error:
+    with ThreadAccount([os.getpid()], tmp_path) as account, pytest.raises(NoAccount) as error:
         account.check()
     assert str(error.value).startswith("The nodes cannot be watched step by step here: there is no")
 
@@ -153,7 +193,10 @@ def test_hidden_processes_are_no_account(tmp_path: Path) -> None:
     """As where /proc is mounted with hidepid: a process lives, and is not to be seen."""
     (tmp_path / "self").mkdir()
     (tmp_path / "self/stat").write_bytes(STAT)
-    with Account([os.getpid()], tmp_path) as account, pytest.raises(NoAccount, match="hidepid"):
+    with (
+        ThreadAccount([os.getpid()], tmp_path) as account,
+        pytest.raises(NoAccount, match="hidepid"),
+    ):
         account.check()
 
 
@@ -166,13 +209,16 @@ def test_a_kernel_that_counts_no_slices_is_no_account(tmp_path: Path) -> None:
     for folder in (task, tmp_path / str(pid)):
         (folder / "stat").write_bytes(STAT)
     (task / "schedstat").write_bytes(b"0 0 0\n")
-    with Account([pid], tmp_path, ours=False) as account, pytest.raises(NoAccount, match="schedst"):
+    with (
+        ThreadAccount([pid], tmp_path, ours=False) as account,
+        pytest.raises(NoAccount, match="schedst"),
+    ):
         account.check()
 
 
 def test_who_sleeps_is_named() -> None:
     """By its process and its thread, when it was seen again."""
-    with program(SLEEPS) as process, Account([process.pid], ours=False) as account:
+    with program(SLEEPS) as process, ThreadAccount([process.pid], ours=False) as account:
         watch = Watch(account)
         account.check()
 
@@ -189,7 +235,7 @@ def test_who_sleeps_is_named() -> None:
 
 def test_who_waits_for_an_event_is_not_named() -> None:
     """Its call is that of all the middleware's threads."""
-    with program(WAITS) as process, Account([process.pid], ours=False) as account:
+    with program(WAITS) as process, ThreadAccount([process.pid], ours=False) as account:
         assert account.is_quiet_within(LONG_S)
         watch = Watch(account)
         for _ in range(5):

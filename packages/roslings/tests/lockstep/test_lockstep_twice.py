@@ -7,30 +7,30 @@ from pathlib import Path
 import pytest
 from pydantic import ValidationError
 
-from roslings.lockstep import Budget, Drive, DriveTick, drive_twice
-from roslings.lockstep.record import BumpSeen, CommandSeen, SleeperSeen
+from roslings.lockstep import DriveBudget, DriveTick, LockstepDrive, drive_twice
+from roslings.lockstep.record import BumpSeen, SleeperSeen, VelocityCommand
 from roslings.lockstep.twice import SAME_PLACE_M
 
 BUMP = BumpSeen(time_s=0.1, x_m=0.0, y_m=0.0, moving=False)
 ASLEEP = SleeperSeen(pid=7, ticks=9, words="A loop of your node sleeps on the wall clock.")
 
 
-def drive(x_m: float = 1.0, **words: object) -> Drive:
+def drive(x_m: float = 1.0, **words: object) -> LockstepDrive:
     """Two ticks, and where the rover is at their end."""
-    said = (CommandSeen(forward_m_s=0.2, turn_rad_s=0.1),)
+    said = (VelocityCommand(forward_m_s=0.2, turn_rad_s=0.1),)
     ticks = (
         DriveTick(time_s=0.05, x_m=0.0, y_m=0.0, heading_rad=0.0, commands=said),
         DriveTick(time_s=0.1, x_m=x_m, y_m=0.0, heading_rad=0.0),
     )
     all_words = {"room": 17, "period_s": 0.05, "end": "done", "ticks": ticks, "wall_s": 0.008}
-    return Drive.model_validate({**all_words, **words})
+    return LockstepDrive.model_validate({**all_words, **words})
 
 
-def twice(first: Drive, second: Drive) -> tuple[str, list[Budget]]:
+def twice(first: LockstepDrive, second: LockstepDrive) -> tuple[str, list[DriveBudget]]:
     """Why it is not believed, and the budgets of the drives that were needed."""
-    budgets: list[Budget] = []
+    budgets: list[DriveBudget] = []
 
-    def run(budget: Budget) -> Drive:
+    def run(budget: DriveBudget) -> LockstepDrive:
         budgets.append(budget)
         return (first, second)[len(budgets) - 1]
 
@@ -55,7 +55,7 @@ def test_the_same_end_is_believed() -> None:
     ],
     ids=["place", "bumps", "way", "ticks"],
 )
-def test_another_end_is_not(second: Drive) -> None:
+def test_another_end_is_not(second: LockstepDrive) -> None:
     """The student hears what that means, and what is done about it."""
     why, budgets = twice(drive(), second)
     assert why.startswith("At half the speed the same room ends otherwise")
@@ -65,7 +65,7 @@ def test_another_end_is_not(second: Drive) -> None:
 def test_the_second_drive_has_half_the_speed() -> None:
     """Each tick takes twice what one took, and there is twice the time for all."""
     _, (first, second) = twice(drive(), drive())
-    assert first == Budget()
+    assert first == DriveBudget()
     assert second.pace_s == pytest.approx(2 * 0.004)
     assert second.computing_s == 2 * first.computing_s
     assert second.cap_s == 2 * first.cap_s
@@ -96,12 +96,12 @@ def test_a_record_is_read_as_it_was_written(tmp_path: Path) -> None:
     """All of it, and the command of each tick."""
     written = drive(bumps=(BUMP,), sleepers=(ASLEEP,), refused_commands=2)
     written.write(tmp_path / "drive.json")
-    read = Drive.read(tmp_path / "drive.json")
+    read = LockstepDrive.read(tmp_path / "drive.json")
     assert read == written
-    assert read.commands == (CommandSeen(forward_m_s=0.2, turn_rad_s=0.1), None)
+    assert read.commands == (VelocityCommand(forward_m_s=0.2, turn_rad_s=0.1), None)
 
 
 def test_a_record_of_another_form_is_refused() -> None:
     """No grader judges half of it."""
     with pytest.raises(ValidationError):
-        Drive.model_validate_json('{"room": 17, "period_s": 0.05, "end": "fine"}')
+        LockstepDrive.model_validate_json('{"room": 17, "period_s": 0.05, "end": "fine"}')

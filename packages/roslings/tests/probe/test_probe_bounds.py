@@ -13,10 +13,15 @@ from roslings.course.contract import RateContract
 from roslings.evidence import CanarySeen, ExperimentSeen, MessageSeen
 from roslings.experiment.on_the_wall import trouble
 from roslings.probe import Probe, budget
-from roslings.probe.budget import GRADING_BYTES, Budget, Store, size_of
+from roslings.probe.budget import GRADING_BYTES, ByteBudget, Store, size_of
 from roslings.probe.content import message_class
-from roslings.probe.ear import OWN_BYTES, QUEUE_BYTES, Ear, Queues
 from roslings.probe.graph import Looker
+from roslings.probe.raw_subscription import (
+    OWN_BYTES,
+    QUEUE_BYTES,
+    RawSubscription,
+    SubscriptionQueues,
+)
 from roslings.probe.recorder import LARGEST_CONTENT, MESSAGE_BYTES, MOST_MESSAGES, TEXT_BYTES
 from skips import imported
 
@@ -51,7 +56,7 @@ def flooder(domain: int) -> Iterator[Any]:
 def watched(domain: int, act: Callable[[Probe], None]) -> ExperimentSeen:
     """What a probe keeps while something is done."""
     seen = ExperimentSeen(name="flood", clock="wall")
-    with Probe(domain, seen, whole=Budget(GRADING_BYTES)) as probe:
+    with Probe(domain, seen, whole=ByteBudget(GRADING_BYTES)) as probe:
         act(probe)
     return seen
 
@@ -84,7 +89,7 @@ def test_what_is_counted_is_what_it_takes() -> None:
 
 def test_a_flood_silences_no_other() -> None:
     """Each has bytes of its own; what once found no room keeps out all after it."""
-    shared = Budget(100)
+    shared = ByteBudget(100)
     quiet, loud = budget.Share(shared, 20), budget.Share(shared, 20)
     assert [loud.take(20) for _ in range(5)] == [True, True, True, True, False]
     assert not loud.take(1)
@@ -93,7 +98,7 @@ def test_a_flood_silences_no_other() -> None:
 
 def test_what_is_not_needed_is_given_back() -> None:
     """An experiment that kept little leaves the rest to those after it."""
-    whole = Budget(1000)
+    whole = ByteBudget(1000)
     store = Store(whole)
     share = store.share(400)
     assert share.take(300)
@@ -104,7 +109,7 @@ def test_what_is_not_needed_is_given_back() -> None:
 
 def test_experiments_leave_room_for_those_after_them() -> None:
     """However much each of many runs takes, the next one has some room, and all fit together."""
-    whole, taken = Budget(GRADING_BYTES), 0
+    whole, taken = ByteBudget(GRADING_BYTES), 0
     for _ in range(12):
         store = Store(whole)
         most = store.budget.left
@@ -217,8 +222,8 @@ def test_a_large_graph_is_cut_and_told(domain: int, flooder: Any) -> None:
         flooder.create_publisher(String, f"/many{number}_{'x' * 100}", 10)
     seen = ExperimentSeen(name="graph", clock="wall")
     with Probe(domain, seen, record=False) as probe:
-        small = Looker(probe.eye, most_bytes=40_000)
-        assert probe.until(lambda: len(Looker(probe.eye).read().endpoints) > 100, WITHIN_S)
+        small = Looker(probe.node, most_bytes=40_000)
+        assert probe.until(lambda: len(Looker(probe.node).read().endpoints) > 100, WITHIN_S)
         graph = small.read()
     assert "/flooder" in graph.nodes
     assert 10 < len(graph.endpoints) < 50
@@ -243,22 +248,22 @@ def test_a_queue_of_large_messages_is_made_shorter(domain: int, flooder: Any) ->
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     sizes: list[int] = []
-    ear = Ear(
+    subscription = RawSubscription(
         node,
         String,
         "/big",
         lambda raw, info: sizes.append(len(raw)),
         QoSProfile(depth=5000),
-        Queues(),
+        SubscriptionQueues(),
     )
     publisher = flooder.create_publisher(String, "/big", 5)
     big = String(data="x" * 1_000_000)
     try:
-        while not ear.cut_short:
+        while not subscription.cut_short:
             publisher.publish(big)
             publisher.publish(big)
             executor.spin_once(timeout_sec=0.01)
-        assert ear.depth == QUEUE_BYTES // sizes[-1]
+        assert subscription.depth == QUEUE_BYTES // sizes[-1]
         before = len(sizes)
         while len(sizes) == before:
             publisher.publish(big)
@@ -277,19 +282,19 @@ def test_an_honest_queue_stays_as_it_is(flooder: Any, kind: str, wanted: int, si
     """Texts at 1000 Hz, and pictures at 15 Hz: two seconds of them may wait."""
     from rclpy.qos import QoSProfile
 
-    ear = Ear(
+    subscription = RawSubscription(
         flooder,
         message_class(kind),
         "/it",
         lambda raw, info: None,
         QoSProfile(depth=5000),
-        Queues(),
+        SubscriptionQueues(),
     )
-    assert ear.depth == wanted
+    assert subscription.depth == wanted
     assert wanted * size < (OWN_BYTES if size < 100 else QUEUE_BYTES)
     late = {"received_timestamp": 1}
-    ear._hear(bytes(size), late)
-    assert (ear.depth, ear.cut_short) == (wanted, False)
+    subscription._hear(bytes(size), late)
+    assert (subscription.depth, subscription.cut_short) == (wanted, False)
 
 
 # --- the canary --------------------------------------------------------------------------------

@@ -57,7 +57,7 @@ def test_it_is_read_again_when_it_has_changed(probe: Probe, talker: Any) -> None
     """A publisher that is new, with its node's name, and one that is gone."""
     from std_msgs.msg import String
 
-    looker = Looker(probe.eye)
+    looker = Looker(probe.node)
     found = looker.read()
 
     def look() -> GraphSeen:
@@ -82,11 +82,11 @@ def test_what_has_gone_meanwhile_found_room(probe: Probe, talker: Any) -> None:
         """Counts one publisher more than there is left to read."""
 
         def __getattr__(self, name: str) -> Any:
-            return getattr(probe.eye, name)
+            return getattr(probe.node, name)
 
         def count_publishers(self, topic: str) -> int:
             """As it was a moment ago."""
-            return int(probe.eye.count_publishers(topic)) + (topic == "/word")
+            return int(probe.node.count_publishers(topic)) + (topic == "/word")
 
     talker.create_publisher(String, "/word", 10)
     looker = Looker(Late())

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from roslings.probe import ear, wall_clock
+from roslings.probe import raw_subscription, wall_clock
 from roslings.probe.wall_clock import to_wall_ns
 
 AHEAD_NS = 1_700_000_000_000_000_000
@@ -37,7 +37,7 @@ def clocks(monkeypatch: pytest.MonkeyPatch, stops: list[int]) -> Clocks:
     """The only clocks that the probe can read."""
     made = Clocks(stops)
     monkeypatch.setattr(wall_clock, "time", made)
-    monkeypatch.setattr(ear, "time", made)
+    monkeypatch.setattr(raw_subscription, "time", made)
     return made
 
 
@@ -54,7 +54,7 @@ def test_a_message_comes_when_the_middleware_received_it(monkeypatch: pytest.Mon
     """However late it is taken, and however long its taker is stopped meanwhile."""
     made = clocks(monkeypatch, [0, STOPPED_NS])
     made.now_ns = 50_000_000
-    came_ns = ear.arrival_ns({"received_timestamp": AHEAD_NS + 40_000_000})
+    came_ns = raw_subscription.arrival_ns({"received_timestamp": AHEAD_NS + 40_000_000})
     assert abs(came_ns - 40_000_000) <= 100
 
 
@@ -62,5 +62,5 @@ def test_a_wall_clock_that_was_set_tells_nothing(monkeypatch: pytest.MonkeyPatch
     """It came now then."""
     made = clocks(monkeypatch, [])
     made.now_ns = 50_000_000
-    came_ns = ear.arrival_ns({"received_timestamp": AHEAD_NS + 10**12})
+    came_ns = raw_subscription.arrival_ns({"received_timestamp": AHEAD_NS + 10**12})
     assert came_ns > 50_000_000

@@ -20,7 +20,7 @@ from roslings.report.evidence_folder import (
     log_files,
     require_free,
 )
-from roslings.report.whole_file import CannotWrite
+from roslings.report.whole_file import CannotWriteFile
 
 
 def seen() -> Evidence:
@@ -200,7 +200,7 @@ def test_somebody_was_quicker(tmp_path: Path) -> None:
 
 def test_a_full_disk_is_said(tmp_path: Path) -> None:
     """As what it is, and nothing stays."""
-    with pytest.raises(CannotWrite, match="No space left"), in_the_making(tmp_path / "new"):
+    with pytest.raises(CannotWriteFile, match="No space left"), in_the_making(tmp_path / "new"):
         raise OSError(28, os.strerror(28))
     assert list(tmp_path.iterdir()) == []
 

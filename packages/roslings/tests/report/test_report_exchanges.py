@@ -14,7 +14,7 @@ from roslings.capabilities.serial.record import BoardSeen, CableLine
 from roslings.capabilities.services.record import CallSeen
 from roslings.evidence import ExperimentSeen, MessageSeen, TopicSeen
 from roslings.report.html import html_of
-from roslings.report.html.timeline_svg import Bar, Line, fields_text, timeline
+from roslings.report.html.timeline_svg import Bar, TimelineRow, fields_text, timeline
 from seen_with import seen_with
 
 MS = 1_000_000
@@ -153,7 +153,9 @@ def test_what_nobody_saw_has_no_section(heading: str) -> None:
 
 def test_a_picture_says_in_words_what_it_shows() -> None:
     """Also where nothing took any time."""
-    drawn = timeline([Line("a name that is longer than the paper", (Bar(0.0, 0.0),))], "1 call.")
+    drawn = timeline(
+        [TimelineRow("a name that is longer than the paper", (Bar(0.0, 0.0),))], "1 call."
+    )
     assert 'aria-label="1 call."' in drawn
     assert "a name that is longer t…" in drawn and "a name that i…" in drawn
     assert fields_text({"a": {"b": False}, "c": 1 / 3}) == "a: (b: false), c: 0.3333"

@@ -8,27 +8,27 @@ import random
 import pytest
 import written_graphs as written
 
-from ros2_on_pip.graph.layout import Box, Edge, layout
-from ros2_on_pip.graph.plan import Plan, plan_of
+from ros2_on_pip.graph.layout import Edge, GraphBox, layout
+from ros2_on_pip.graph.plan import GraphLayout, plan_of
 
 EPSILON = 1e-6
 
 
-def random_graph(seed: int, nodes: int, topics: int) -> tuple[dict[str, Box], list[Edge]]:
+def random_graph(seed: int, nodes: int, topics: int) -> tuple[dict[str, GraphBox], list[Edge]]:
     """Boxes of random sizes; each topic has up to 3 publishers and subscribers."""
     choose = random.Random(seed)
     names = [f"node {number}" for number in range(nodes)]
-    boxes = {name: Box(choose.uniform(40, 200), choose.uniform(25, 60), 0) for name in names}
+    boxes = {name: GraphBox(choose.uniform(40, 200), choose.uniform(25, 60), 0) for name in names}
     edges = []
     for number in range(topics):
         topic = f"topic {number}"
-        boxes[topic] = Box(choose.uniform(60, 220), choose.uniform(30, 70), 1)
+        boxes[topic] = GraphBox(choose.uniform(60, 220), choose.uniform(30, 70), 1)
         edges += [(choose.choice(names), topic) for _ in range(choose.randint(0, 3))]
         edges += [(topic, choose.choice(names)) for _ in range(choose.randint(0, 3))]
     return boxes, edges
 
 
-def overlap(one: Box, other: Box) -> bool:
+def overlap(one: GraphBox, other: GraphBox) -> bool:
     """Whether two boxes share a point of their inside."""
     return (
         abs(one.x - other.x) < (one.width + other.width) / 2 - EPSILON
@@ -54,7 +54,7 @@ def points_on(plan_line: tuple[tuple[float, float], ...]) -> list[tuple[float, f
     return found
 
 
-def check(plan: Plan) -> None:
+def check(plan: GraphLayout) -> None:
     """No box on another, no arrow across a box, everything inside."""
     for one, other in itertools.combinations(plan.boxes.values(), 2):
         assert not overlap(one, other)
@@ -70,7 +70,7 @@ def check(plan: Plan) -> None:
             assert sum(inside(box, x, y) for box in plan.boxes.values()) == 0
 
 
-def inside(box: Box, x: float, y: float) -> bool:
+def inside(box: GraphBox, x: float, y: float) -> bool:
     """Whether the point lies within the box's drawn shape."""
     dx, dy = (x - box.x) / (box.width / 2), (y - box.y) / (box.height / 2)
     if box.column == 0:
@@ -97,7 +97,7 @@ def test_a_big_graph_is_laid_out() -> None:
 
 def test_a_chain_goes_from_left_to_right() -> None:
     """Talker, topic, listener on one line."""
-    boxes = {"t": Box(60, 30, 0), "c": Box(90, 40, 1), "l": Box(60, 30, 0)}
+    boxes = {"t": GraphBox(60, 30, 0), "c": GraphBox(90, 40, 1), "l": GraphBox(60, 30, 0)}
     found = layout(boxes, [("t", "c"), ("c", "l")]).boxes
     assert found["t"].x < found["c"].x < found["l"].x
     assert found["t"].y == pytest.approx(found["c"].y) == pytest.approx(found["l"].y)
@@ -105,7 +105,10 @@ def test_a_chain_goes_from_left_to_right() -> None:
 
 def test_a_crossing_is_undone() -> None:
     """Two pairs whose names would cross."""
-    boxes = {name: Box(50, 30, 0) for name in "abyz"} | {"p": Box(50, 30, 1), "q": Box(50, 30, 1)}
+    boxes = {name: GraphBox(50, 30, 0) for name in "abyz"} | {
+        "p": GraphBox(50, 30, 1),
+        "q": GraphBox(50, 30, 1),
+    }
     edges = [("a", "q"), ("b", "p"), ("q", "y"), ("p", "z"), ("a", "p")]
     found = layout(boxes, edges).boxes
     assert (found["p"].y < found["q"].y) == (found["z"].y < found["y"].y)
@@ -114,8 +117,8 @@ def test_a_crossing_is_undone() -> None:
 
 def test_arrows_of_a_loop_point_the_right_way() -> None:
     """Controller to robot and back: the arrow home leads from right to left."""
-    boxes = {name: Box(50, 30, 0) for name in ("controller", "robot")}
-    boxes |= {name: Box(50, 30, 1) for name in ("cmd", "odom")}
+    boxes = {name: GraphBox(50, 30, 0) for name in ("controller", "robot")}
+    boxes |= {name: GraphBox(50, 30, 1) for name in ("cmd", "odom")}
     edges = [("controller", "cmd"), ("cmd", "robot"), ("robot", "odom"), ("odom", "controller")]
     found = layout(boxes, edges)
     ways = {(route.source, route.target): route.points for route in found.routes}
@@ -129,14 +132,14 @@ def test_arrows_of_a_loop_point_the_right_way() -> None:
 
 def test_a_node_that_hears_itself_has_two_arrows() -> None:
     """One there and one back, not on top of each other."""
-    found = layout({"n": Box(50, 30, 0), "t": Box(50, 30, 1)}, [("n", "t"), ("t", "n")])
+    found = layout({"n": GraphBox(50, 30, 0), "t": GraphBox(50, 30, 1)}, [("n", "t"), ("t", "n")])
     there, back = found.routes
     assert there.points[0][1] != back.points[-1][1]
 
 
 def test_a_long_chain_goes_down_the_page() -> None:
     """What would be far too wide is turned; a short chain is not."""
-    boxes = {f"n{at}": Box(150, 30, at % 2) for at in range(12)}
+    boxes = {f"n{at}": GraphBox(150, 30, at % 2) for at in range(12)}
     edges = [(f"n{at}", f"n{at + 1}") for at in range(11)]
     long, short = plan_of(boxes, edges), plan_of(dict(list(boxes.items())[:3]), edges[:2])
     assert long.height > long.width

@@ -17,7 +17,7 @@ from roslings.evidence import GraphSeen
 from roslings.report.graph_picture import NotAPng, draw_graph
 from roslings.report.graph_sheet import NODE_FILL, TOPIC_FILL
 from roslings.report.lettering import Lettering
-from roslings.report.whole_file import CannotWrite
+from roslings.report.whole_file import CannotWriteFile
 
 GRAPHS = {
     "empty": written.empty(),
@@ -186,7 +186,7 @@ def test_a_folder_that_is_not_there_is_made(tmp_path: Path) -> None:
 def test_a_folder_that_cannot_be_made_is_told(tmp_path: Path) -> None:
     """A file has its name."""
     (tmp_path / "figures").touch()
-    with pytest.raises(CannotWrite, match="give a place where you may write"):
+    with pytest.raises(CannotWriteFile, match="give a place where you may write"):
         draw_graph(written.two(), tmp_path / "figures" / "graph.png")
 
 

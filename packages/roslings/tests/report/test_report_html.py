@@ -17,14 +17,14 @@ from written_verdicts import HINTS, TOO_SLOW, failing, left_open, too_slow, verd
 from ros2_on_pip.markup import prose, tag
 from ros2_on_pip.rates import measure_rate
 from roslings.evidence import Evidence, ExperimentSeen, LogLine, Qos, Segment, Spoken, Tick
-from roslings.report.html import Asked, OfClass, Own, html_of
+from roslings.report.command_line import CommandLine
+from roslings.report.html import OfClass, Own, RequiredRate, html_of
 from roslings.report.html.interval_plot import BOTTOM, TOP, interval_plot
 from roslings.report.html.intervals import watched
 from roslings.report.html.slips import marked
-from roslings.report.typed import Typed
 from roslings.verdict import Verdict
 
-ASKED = [Asked("/chatter", STRING, 2.0, 1.9, 2.1)]
+ASKED = [RequiredRate("/chatter", STRING, 2.0, 1.9, 2.1)]
 VOID = {"meta", "br", "rect", "path", "line", "ellipse"}
 EVIL = "</pre></style><script>alert(1)</script><img src=//evil/x onerror=alert(2)>&\x1b[31m\u202e"
 
@@ -129,12 +129,12 @@ def test_the_page_says_what_is_next() -> None:
 
 def test_what_to_read_is_a_link_where_the_site_is_built() -> None:
     """And what is typed next is what was typed, the package's place included."""
-    typed = Typed("topics", place=("~/mine",))
+    command_line = CommandLine("topics", place=("~/mine",))
     seen = evidence(talking(messages(steady(1.0, 12))))
-    linked = html_of(too_slow(), seen, ASKED, Own(typed, "file:///site"))
+    linked = html_of(too_slow(), seen, ASKED, Own(command_line, "file:///site"))
     assert re.search(r'<a href="file:///site/days/[\w-]+/index.html#[\w-]+">days/', linked)
     assert "./roslings check topics ~/mine" in linked
-    plain = html_of(too_slow(), seen, ASKED, Own(typed))
+    plain = html_of(too_slow(), seen, ASKED, Own(command_line))
     assert "<a " not in plain and "in the lesson that ./roslings lab 3 opens" in Page(plain).text
 
 

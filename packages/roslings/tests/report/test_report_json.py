@@ -13,7 +13,7 @@ import written_verdicts as written
 
 from roslings.report.json_file import BadVerdictFile, read_json, write_json
 from roslings.report.schema import SCHEMA_FILE, schema_text, verdict_schema
-from roslings.report.whole_file import CannotWrite
+from roslings.report.whole_file import CannotWriteFile
 from roslings.verdict import SCHEMA_VERSION, Verdict
 from skips import imported
 
@@ -123,7 +123,9 @@ def test_a_failed_write_leaves_the_old_file(
 
 def test_a_full_disk_is_one_clear_line() -> None:
     """/dev/full is a disk with no room; it is not replaced by a file either."""
-    with pytest.raises(CannotWrite, match=r"Cannot write /dev/full: No space left .* Free some"):
+    with pytest.raises(
+        CannotWriteFile, match=r"Cannot write /dev/full: No space left .* Free some"
+    ):
         write_json(written.full_score(), Path("/dev/full"))
     assert Path("/dev/full").is_char_device()
 
@@ -145,7 +147,7 @@ def test_a_device_is_written_to_and_not_replaced() -> None:
 def test_a_place_that_cannot_be_written(place: str, words: str, tmp_path: Path) -> None:
     """Each says what to do."""
     (tmp_path / "a file").touch()
-    with pytest.raises(CannotWrite, match=words):
+    with pytest.raises(CannotWriteFile, match=words):
         write_json(written.full_score(), tmp_path / place)
 
 

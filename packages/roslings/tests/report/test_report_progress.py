@@ -10,14 +10,14 @@ import sys
 import pytest
 from rich.console import Console
 
-from roslings.report.progress import Progress
+from roslings.report.progress import ProgressLine
 
 
 def test_plain_lines_where_there_is_no_terminal() -> None:
     """Standard error gets one short line a step; standard output nothing."""
     code = (
-        "from roslings.report.progress import Progress\n"
-        "with Progress() as progress:\n"
+        "from roslings.report.progress import ProgressLine\n"
+        "with ProgressLine() as progress:\n"
         "    progress.step('Building chatter')\n"
         "    progress.step('Listening \\x1b[2J\\n to /chatter')\n"
     )
@@ -36,7 +36,7 @@ def test_plain_lines_where_there_is_no_terminal() -> None:
 def test_quiet_tells_nothing(terminal: bool, capfd: pytest.CaptureFixture[str]) -> None:
     """Nothing at all, on a terminal and elsewhere."""
     stream = io.StringIO()
-    with Progress(Console(file=stream, force_terminal=terminal), quiet=True) as progress:
+    with ProgressLine(Console(file=stream, force_terminal=terminal), quiet=True) as progress:
         progress.step("Building chatter")
     assert stream.getvalue() == ""
     assert capfd.readouterr() == ("", "")
@@ -47,7 +47,7 @@ def test_one_live_line_on_a_terminal_that_goes_away(monkeypatch: pytest.MonkeyPa
     monkeypatch.setenv("TERM", "xterm")
     stream = io.StringIO()
     console = Console(file=stream, force_terminal=True, width=40, legacy_windows=False)
-    with pytest.raises(KeyboardInterrupt), Progress(console) as progress:
+    with pytest.raises(KeyboardInterrupt), ProgressLine(console) as progress:
         progress.step("Building chatter " + "x" * 100)
         raise KeyboardInterrupt
     written = stream.getvalue()
@@ -65,13 +65,13 @@ def test_plain_lines_on_a_terminal_that_cannot_move_its_cursor(
     """TERM=dumb, as in an editor's window."""
     monkeypatch.setenv("TERM", "dumb")
     stream = io.StringIO()
-    with Progress(Console(file=stream, force_terminal=True)) as progress:
+    with ProgressLine(Console(file=stream, force_terminal=True)) as progress:
         progress.step("Building chatter")
     assert stream.getvalue() == "Building chatter\n"
 
 
 def test_a_step_outside_the_block_is_harmless() -> None:
     """It is remembered for the line that is drawn later."""
-    progress = Progress()
+    progress = ProgressLine()
     progress.step("Building chatter")
     assert progress._text == "Building chatter"

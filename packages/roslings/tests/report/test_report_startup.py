@@ -27,7 +27,7 @@ def modules_after(code: str) -> set[str]:
     ("code", "heavy"),
     [
         ("import roslings.report", set()),
-        ("from roslings.report.progress import Progress", set()),
+        ("from roslings.report.progress import ProgressLine", set()),
         ("from roslings.report.terminal import print_verdict", {"rich", "pydantic"}),
         ("from roslings.report.json_file import write_json", {"pydantic"}),
         ("from roslings.report.graph_picture import draw_graph", set()),

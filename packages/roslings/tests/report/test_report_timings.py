@@ -13,17 +13,17 @@ import pytest
 from rich.console import Console
 
 from roslings.commands.check import READY, began_ns
-from roslings.evidence import Part, Span
+from roslings.evidence import GradingSpan, Part
 from roslings.report.timings import print_timings
-from roslings.timeline import FIRST, noted, process_began_ns, shares_s
+from roslings.seen.timeline import FIRST, noted, process_began_ns, shares_s
 from roslings.verdict import Timings
 
 S = 10**9
 
 
-def span(part: Part, began_s: float, ended_s: float, of: str = "") -> Span:
+def span(part: Part, began_s: float, ended_s: float, of: str = "") -> GradingSpan:
     """A stretch, in seconds."""
-    return Span(part=part, of=of, began_ns=round(began_s * S), ended_ns=round(ended_s * S))
+    return GradingSpan(part=part, of=of, began_ns=round(began_s * S), ended_ns=round(ended_s * S))
 
 
 def test_parts_that_overlap_count_once() -> None:
@@ -48,7 +48,7 @@ def test_the_shares_add_up(seed: int) -> None:
 
 def test_what_ends_in_an_error_is_noted_as_well() -> None:
     """An experiment that breaks off took its time, too."""
-    timeline = list[Span]()
+    timeline = list[GradingSpan]()
     with pytest.raises(ValueError, match="broken"), noted(timeline, "watching", "talking"):
         raise ValueError("broken")
     assert [(each.part, each.of) for each in timeline] == [("watching", "talking")]
@@ -58,7 +58,7 @@ def test_what_ends_in_an_error_is_noted_as_well() -> None:
 def test_a_process_knows_when_it_began() -> None:
     """Between the moments before and after its start, to the hundredth that the kernel keeps."""
     before_ns = time.monotonic_ns()
-    source = "from roslings.timeline import process_began_ns; print(process_began_ns())"
+    source = "from roslings.seen.timeline import process_began_ns; print(process_began_ns())"
     done = subprocess.run(
         [sys.executable, "-c", source], capture_output=True, text=True, check=True
     )

@@ -9,19 +9,19 @@ import pytest
 import written_verdicts as written
 from rich.console import Console
 
+from roslings.report.command_line import CommandLine
 from roslings.report.html.verdict_part import head
 from roslings.report.terminal import print_verdict
-from roslings.report.typed import Typed
 from roslings.verdict import Verdict
 
-TYPED = Typed("topics", "roslings", ("'my ws/chatter'",), ("--port /dev/ttyACM0",))
+TYPED = CommandLine("topics", "roslings", ("'my ws/chatter'",), ("--port /dev/ttyACM0",))
 
 
 def shown(verdict: Verdict, screen: bool = False, **words: object) -> str:
     """What is printed, with all white space as one blank."""
     out = io.StringIO()
     console = Console(file=out, width=150, height=200, force_terminal=screen, color_system=None)
-    print_verdict(verdict, console=console, typed=TYPED, **words)  # type: ignore[arg-type]
+    print_verdict(verdict, console=console, command_line=TYPED, **words)  # type: ignore[arg-type]
     return " ".join(out.getvalue().split())
 
 
@@ -53,7 +53,7 @@ def test_nobody_hands_in_what_only_shows_a_check() -> None:
     """The example of the first page: the course goes on, in the terminal and on the page."""
     example = replace(TYPED, handed_in=False)
     console = Console(width=80, record=True, file=io.StringIO())
-    print_verdict(written.full_score(), console=console, typed=example)
+    print_verdict(written.full_score(), console=console, command_line=example)
     text = " ".join(console.export_text().split())
     assert "Next Go on with the course: roslings" in text
     assert "pack" not in text.partition("Next")[2]
@@ -67,4 +67,7 @@ def test_a_command_in_a_fault_is_typed_alike() -> None:
     """The picture is saved into the package that was checked."""
     told = TYPED.told("Then: ./roslings graph --for topics --force")
     assert told == "Then: roslings graph --for topics 'my ws/chatter' --force"
-    assert Typed("topics").told("./roslings graph --for topics") == "./roslings graph --for topics"
+    assert (
+        CommandLine("topics").told("./roslings graph --for topics")
+        == "./roslings graph --for topics"
+    )

@@ -49,6 +49,7 @@ TOO_SLOW: Mapping[str, Any] = {
     "why": "A robot that steers on these messages would react half as quickly as it should.",
     "hint": "The period is twice as long as it should be. Which number sets it?",
     "fault": "TooSlow",
+    "fields": {"topic": "/chatter", "wanted_hz": 2.0, "within": 0.05},
     "lesson": "days/03-topics#timers",
     "hints": HINTS,
 }

@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 
 from few import few_labs
-from roslings.arena import Installed, Place, choose_isolation
+from roslings.arena import ArenaPlace, Installed, choose_isolation
 from roslings.course import Lab, lab
 from roslings.evidence import BuildSeen
 from roslings.workspace import shared_build as building
-from roslings.workspace.kin import family_of, modules_of
+from roslings.workspace.build_cache import modules_of, shared_setup_of
 from roslings.workspace.shared_build import shared_build
 
 TOPICS = lab("topics")
@@ -23,14 +23,16 @@ LONGEST_BUILD_S = 180.0
 
 
 def built_in(
-    person: Path, source: Path, builds: Path | None = None, kin: bool = False
+    person: Path, source: Path, builds: Path | None = None, from_cache: bool = False
 ) -> tuple[BuildSeen, Installed | None]:
     """Build `source` with a home and a room of a person's own."""
     home, room = person / "home", person / "room"
     for folder in (home, room):
         folder.mkdir(parents=True, exist_ok=True)
-    place = Place("domain", home, person, choose_isolation().sandbox)
-    return shared_build(builds or person / "builds", source, room, place, LONGEST_BUILD_S, kin)
+    place = ArenaPlace("domain", home, person, choose_isolation().sandbox)
+    return shared_build(
+        builds or person / "builds", source, room, place, LONGEST_BUILD_S, from_cache
+    )
 
 
 def test_one_build_a_processor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -106,19 +108,19 @@ def test_kin_is_installed_as_colcon_does(one: Lab, tmp_path: Path) -> None:
     module = next(iter(sorted(modules_of(second))))
     (second / module).write_text("def main():\n    print('another')\n")
     built = {
-        folder: built_in(tmp_path / folder, source, kin=kin)
-        for folder, source, kin in (("alone", second, False), ("eldest", first, True))
+        folder: built_in(tmp_path / folder, source, from_cache=from_cache)
+        for folder, source, from_cache in (("alone", second, False), ("eldest", first, True))
     }
-    built["kin"] = built_in(tmp_path / "eldest", second, kin=True)
-    (alone, by_colcon), (_, by_eldest), (seen, as_kin) = built.values()
-    assert by_colcon and by_eldest and as_kin and seen.seconds == 0.0
+    built["kin"] = built_in(tmp_path / "eldest", second, from_cache=True)
+    (alone, by_colcon), (_, by_eldest), (seen, by_cache) = built.values()
+    assert by_colcon and by_eldest and by_cache and seen.seconds == 0.0
     assert (seen.succeeded, seen.executables) == (True, alone.executables)
-    assert tree(as_kin.folder, as_kin.folder) == tree(by_colcon.folder, by_colcon.folder)
-    assert tree(as_kin.folder, as_kin.folder) != tree(by_eldest.folder, by_eldest.folder)
-    assert compiled(as_kin.folder) >= {path.stem for path in modules_of(second)}
-    assert str(by_eldest.folder) not in str(as_kin)
-    paths = as_kin.environment["AMENT_PREFIX_PATH"].split(os.pathsep)
-    assert str(as_kin.folder / package) in paths
+    assert tree(by_cache.folder, by_cache.folder) == tree(by_colcon.folder, by_colcon.folder)
+    assert tree(by_cache.folder, by_cache.folder) != tree(by_eldest.folder, by_eldest.folder)
+    assert compiled(by_cache.folder) >= {path.stem for path in modules_of(second)}
+    assert str(by_eldest.folder) not in str(by_cache)
+    paths = by_cache.environment["AMENT_PREFIX_PATH"].split(os.pathsep)
+    assert str(by_cache.folder / package) in paths
 
 
 @pytest.mark.parametrize(
@@ -132,10 +134,10 @@ def test_who_else_differs_is_no_kin(file: str, tmp_path: Path) -> None:
     shutil.copytree(TOPICS.solution, second)
     with (second / file).open("a") as end:
         end.write("\n")
-    with family_of(tmp_path, first, "") as family:
+    with shared_setup_of(tmp_path, first, "") as family:
         family.remember(first)
         assert family.eldest == first
-    with family_of(tmp_path, second, "") as other:
+    with shared_setup_of(tmp_path, second, "") as other:
         assert other.eldest is None
 
 

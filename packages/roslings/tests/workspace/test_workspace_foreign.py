@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from roslings.arena import Place, choose_isolation
+from roslings.arena import ArenaPlace, choose_isolation
 from roslings.course import lab
 from roslings.workspace import shared_build as building
 from roslings.workspace.foreign import Allowance, NoRoom, copy_foreign
@@ -124,7 +124,7 @@ def test_a_build_full_of_holes_is_used_and_not_kept(
         person = tmp_path / f"person-{len(taken)}"
         for folder in ("room", "home"):
             (person / folder).mkdir(parents=True)
-        place = Place("domain", person / "home", person, choose_isolation().sandbox)
+        place = ArenaPlace("domain", person / "home", person, choose_isolation().sandbox)
         seen, installed = building.shared_build(
             person / "builds", source, person / "room", place, 180.0
         )

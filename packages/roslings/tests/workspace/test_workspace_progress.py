@@ -22,14 +22,14 @@ from roslings.verdict import (
     score_of,
 )
 from roslings.workspace.progress import (
-    Step,
+    NextStep,
     days_done,
     read_progress,
     record,
     status,
     today,
 )
-from roslings.workspace.progress_file import Progress, as_json, progress_in
+from roslings.workspace.progress_file import StudentProgress, as_json, progress_in
 from roslings.workspace.student import start
 
 
@@ -137,10 +137,10 @@ def test_what_may_not_be_written_is_told(workspace: Path, without_rights: Run) -
         from pathlib import Path
         from roslings.verdict import Verdict
         from roslings.workspace.progress import record
-        from roslings.workspace.errors import CannotWrite
+        from roslings.workspace.errors import CannotWriteFolder
         try:
             record(Verdict.model_validate_json({verdict(40).model_dump_json(by_alias=True)!r}))
-        except CannotWrite:
+        except CannotWriteFolder:
             print("told")
     """
     assert without_rights(source) == "told"
@@ -188,7 +188,7 @@ def test_a_full_disk_keeps_the_old_file(with_little_room: Run) -> None:
 def test_days_in_a_row_end_today_or_yesterday(days: list[int], row: int) -> None:
     """Numbers are days ago; who has not begun today has lost nothing yet."""
     today = date(2026, 3, 1)
-    kept = Progress(days=[today - timedelta(days=ago) for ago in days])
+    kept = StudentProgress(days=[today - timedelta(days=ago) for ago in days])
     assert kept.days_in_a_row(today) == row
 
 
@@ -208,19 +208,19 @@ def test_today_leads_through_the_labs(two_labs: Path, workspace: Path) -> None:
     """Start, go on, the next lab, and at last all is done."""
     first = today()
     assert first.at
-    assert (first.step, first.at.lab.name, first.at.package) == (Step.START, "topics", None)
+    assert (first.step, first.at.lab.name, first.at.package) == (NextStep.START, "topics", None)
     begun = start(first.at.lab)
     record(verdict(40))
     second = today()
     assert second.at
-    assert (second.step, second.at.package) == (Step.GO_ON, begun.package)
+    assert (second.step, second.at.package) == (NextStep.GO_ON, begun.package)
     assert second.at.progress.best == 40
     record(verdict(100))
     third = today()
     assert third.at
-    assert (third.step, third.at.lab.name) == (Step.START, "later")
+    assert (third.step, third.at.lab.name) == (NextStep.START, "later")
     record(verdict(100, "later"))
-    assert today().step is Step.ALL_DONE
+    assert today().step is NextStep.ALL_DONE
 
 
 def test_status_lists_every_lab_by_day(two_labs: Path, workspace: Path) -> None:

@@ -11,7 +11,7 @@ from hardship import Run
 
 from roslings.workspace import errors as trouble
 from roslings.workspace.copying import HALF_MADE
-from roslings.workspace.sources import Limits, files
+from roslings.workspace.sources import PackageLimits, files
 from roslings.workspace.student import stage
 
 
@@ -93,7 +93,7 @@ def test_too_much_is_refused_with_the_largest_part(package: Path, tmp_path: Path
         stage(package, tmp_path / "staged")
     (package / "bag.mcap").unlink()
     with pytest.raises(trouble.TooLarge, match="5 files"):
-        stage(package, tmp_path / "staged", Limits(files=5))
+        stage(package, tmp_path / "staged", PackageLimits(files=5))
     assert [path.name for path in tmp_path.iterdir()] == [package.parents[2].name]
 
 
@@ -104,7 +104,7 @@ def test_nothing_is_written_over(package: Path, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("mine")
     (tmp_path / "link").symlink_to("nowhere")
     for name in ("full", "file", "link"):
-        with pytest.raises(trouble.AlreadyThere):
+        with pytest.raises(trouble.TargetAlreadyThere):
             stage(package, tmp_path / name)
     assert contents(tmp_path / "full") == {"work.py": b""}
     assert (tmp_path / "file").read_text() == "mine"

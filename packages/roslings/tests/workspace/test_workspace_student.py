@@ -69,7 +69,7 @@ def test_start_never_writes_over_work(topics: Lab, package: Path) -> None:
     (package.parents[2] / "chatter_old").touch()
     before = texts(package)
     stands = r"your package already \(last changed"
-    with pytest.raises(trouble.AlreadyThere, match=stands) as refusal:
+    with pytest.raises(trouble.TargetAlreadyThere, match=stands) as refusal:
         start(topics)
     assert texts(package) == before
     assert "./roslings diff topics" in refusal.value.next_step
@@ -79,7 +79,7 @@ def test_start_never_writes_over_work(topics: Lab, package: Path) -> None:
 def test_start_twice_says_that_nothing_was_changed_yet(topics: Lab, workspace: Path) -> None:
     """The starter as it came is no work to fear for."""
     start(topics)
-    with pytest.raises(trouble.AlreadyThere, match="the starter already, without any change"):
+    with pytest.raises(trouble.TargetAlreadyThere, match="the starter already, without any change"):
         start(topics)
 
 
@@ -94,7 +94,7 @@ def test_start_leaves_what_is_no_package_too(topics: Lab, workspace: Path, kind:
         at.mkdir()
     else:
         at.symlink_to("nowhere")
-    with pytest.raises(trouble.AlreadyThere, match="It stays as it is"):
+    with pytest.raises(trouble.TargetAlreadyThere, match="It stays as it is"):
         start(topics)
     assert [path.name for path in at.parent.iterdir()] == ["chatter"]
 
@@ -104,7 +104,7 @@ def test_start_sees_the_package_elsewhere_in_src(topics: Lab, package: Path) -> 
     moved = package.parent / "day 3" / "chatter"
     moved.parent.mkdir()
     package.rename(moved)
-    with pytest.raises(trouble.AlreadyThere, match="day 3"):
+    with pytest.raises(trouble.TargetAlreadyThere, match="day 3"):
         start(topics)
     assert started_package(topics) == moved
 
@@ -247,7 +247,7 @@ def test_an_older_zip_is_replaced_and_said(topics: Lab, package: Path, tmp_path:
     assert again.replaced
     assert "chatter/new.py" in again.files
     (tmp_path / "thesis.zip").write_text("mine")
-    with pytest.raises(trouble.AlreadyThere, match=r"no zip of 'chatter'"):
+    with pytest.raises(trouble.TargetAlreadyThere, match=r"no zip of 'chatter'"):
         pack(topics, tmp_path / "thesis.zip")
     assert (tmp_path / "thesis.zip").read_text() == "mine"
     with pytest.raises(trouble.NoSuchPath, match="nowhere"):

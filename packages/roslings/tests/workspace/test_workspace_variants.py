@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from roslings.course import lab
-from roslings.own_card import NoName, own_lab, take_name, told_of, whose_cards
-from roslings.variants import NoVariants, chosen
+from roslings.course.variants import NoVariants, chosen
+from roslings.workspace.own_card import NotAStudentName, own_lab, take_name, told_of, whose_cards
 
 
 @pytest.fixture(autouse=True)
@@ -90,7 +90,7 @@ def test_after_a_change_of_the_course_the_card_is_made_anew(
 @pytest.mark.parametrize("name", ["", "--", "...", "a\nb", "a" * 101, "\x1b[31m1"])
 def test_nobody_is_called_so(workspace: Path, name: str) -> None:
     """The next step says what to give."""
-    with pytest.raises(NoName, match="class list"):
+    with pytest.raises(NotAStudentName, match="class list"):
         take_name(name)
     assert not (workspace / ".roslings").exists()
 

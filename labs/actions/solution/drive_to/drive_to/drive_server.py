@@ -1,15 +1,14 @@
 """The drive server: performs the action that drives the rover to a point of its map."""
 
 import math
-import time
 
 import rclpy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
-from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.task import Future
 from rover_interfaces.action import DriveTo
 
 WEST, EAST, SOUTH, NORTH = -2.0, 8.0, -2.0, 7.0  # the map, in metres
@@ -23,9 +22,8 @@ class DriveServer(Node):
         super().__init__('drive_server')
         self.place = None  # x, y and heading, once /odom has told
         self.busy = False
-        group = ReentrantCallbackGroup()
         self.publisher = self.create_publisher(Twist, 'cmd_vel', 10)
-        self.create_subscription(Odometry, 'odom', self.hear, 10, callback_group=group)
+        self.create_subscription(Odometry, 'odom', self.hear, 10)
         self.server = ActionServer(
             self,
             DriveTo,
@@ -33,14 +31,24 @@ class DriveServer(Node):
             execute_callback=self.drive,
             goal_callback=self.judge_goal,
             cancel_callback=self.judge_cancel,
-            callback_group=group,
         )
+        self.tick = Future()
+        self.create_timer(PERIOD, self.next_tick)
 
     def hear(self, odometry):
         """Note where the rover is."""
         pose = odometry.pose.pose
         heading = 2 * math.atan2(pose.orientation.z, pose.orientation.w)
         self.place = (pose.position.x, pose.position.y, heading)
+
+    def next_tick(self):
+        """Let who awaits the tick go on, and begin the next one."""
+        tick, self.tick = self.tick, Future()
+        tick.set_result(None)
+
+    def seconds(self):
+        """What the node's clock says, which may be that of a simulation."""
+        return self.get_clock().now().nanoseconds / 1e9
 
     def judge_goal(self, goal):
         """Accept a goal on the map, one at a time."""
@@ -53,12 +61,13 @@ class DriveServer(Node):
         """Whoever drives can be stopped."""
         return CancelResponse.ACCEPT
 
-    def drive(self, goal_handle):
+    async def drive(self, goal_handle):
         """Drive until the rover is there, or until somebody cancels."""
         goal = goal_handle.request
-        began = time.monotonic()
+        began = self.seconds()
         result = DriveTo.Result()
-        while rclpy.ok():
+        while True:
+            await self.tick  # the node hears and answers meanwhile
             distance = self.distance_to(goal)
             self.tell(goal_handle, distance)
             if distance < 0.8 * goal.tolerance:
@@ -67,10 +76,9 @@ class DriveServer(Node):
             if goal_handle.is_cancel_requested:
                 break
             self.publisher.publish(steer(self.place, goal))
-            time.sleep(PERIOD)
         self.publisher.publish(Twist())  # stand still
         self.busy = False
-        result.elapsed = time.monotonic() - began
+        result.elapsed = self.seconds() - began
         if result.reached:
             goal_handle.succeed()
         elif goal_handle.is_cancel_requested:
@@ -116,7 +124,7 @@ def main(args=None):
     """Run the server until Ctrl-C."""
     try:
         rclpy.init(args=args)
-        rclpy.spin(DriveServer(), executor=MultiThreadedExecutor())
+        rclpy.spin(DriveServer())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass  # Ctrl-C is the usual way to end a node
     finally:

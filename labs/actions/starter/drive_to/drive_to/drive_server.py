@@ -9,13 +9,13 @@ import math
 import rclpy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
-from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.task import Future
 
 # TODO 3: import ActionServer, CancelResponse and GoalResponse from rclpy.action,
 #         and the action type that the card names. An action type comes from the
-#         part "action" of its package. Import the module time, too.
+#         part "action" of its package.
 
 # TODO 7: the edges of the map, in metres: WEST, EAST, SOUTH, NORTH = ...
 PERIOD = 0.1  # seconds between two feedbacks
@@ -29,14 +29,14 @@ class DriveServer(Node):
         super().__init__('change_me')
         self.place = None  # x, y and heading, once /odom has told
         self.busy = False
-        # While drive() waits, the functions of this group can run beside it.
-        group = ReentrantCallbackGroup()
         self.publisher = self.create_publisher(Twist, 'cmd_vel', 10)
-        self.create_subscription(Odometry, 'odom', self.hear, 10, callback_group=group)
+        self.create_subscription(Odometry, 'odom', self.hear, 10)
         # TODO 5: create the action server: ActionServer(self, TYPE, NAME,
         #         execute_callback=self.drive, goal_callback=self.judge_goal,
-        #         cancel_callback=self.judge_cancel, callback_group=group)
-        #         Keep it as self.server.
+        #         cancel_callback=self.judge_cancel). Keep it as self.server.
+        # A timer ends the tick, ten times a second, and begins the next one.
+        self.tick = Future()
+        self.create_timer(PERIOD, self.next_tick)
 
     def hear(self, odometry):
         """Note where the rover is."""
@@ -44,6 +44,17 @@ class DriveServer(Node):
         pose = odometry.pose.pose
         heading = 2 * math.atan2(pose.orientation.z, pose.orientation.w)
         self.place = (pose.position.x, pose.position.y, heading)
+
+    def next_tick(self):
+        """Let who awaits the tick go on, and begin the next one."""
+        # This part is complete.
+        tick, self.tick = self.tick, Future()
+        tick.set_result(None)
+
+    def seconds(self):
+        """What the node's clock says, which may be that of a simulation."""
+        # This part is complete.
+        return self.get_clock().now().nanoseconds / 1e9
 
     def judge_goal(self, goal):
         """Accept a goal on the map, one at a time."""
@@ -57,17 +68,19 @@ class DriveServer(Node):
         """Whoever drives can be stopped."""
         # TODO 10: return CancelResponse.ACCEPT.
 
-    def drive(self, goal_handle):
+    async def drive(self, goal_handle):
         """Drive until the rover is there, or until somebody cancels."""
         # TODO 9: goal_handle.request is the goal. In a loop:
+        #         - wait with: await self.tick. Meanwhile the node hears where
+        #           the rover is. With time.sleep it would hear nothing;
         #         - publish the feedback: fill a TYPE.Feedback() and give it to
         #           goal_handle.publish_feedback;
         #         - where the rover is within the tolerance, leave the loop;
-        #         - publish the command that steer(self.place, goal) gives;
-        #         - wait with time.sleep(PERIOD).
+        #         - publish the command that steer(self.place, goal) gives.
         #         After the loop: publish an empty Twist(), so that the rover
-        #         stands. Set self.busy to False. Fill a TYPE.Result(), call
-        #         goal_handle.succeed(), and return the result.
+        #         stands. Set self.busy to False. Fill a TYPE.Result(): elapsed is
+        #         the difference of self.seconds() at the end and at the begin.
+        #         Call goal_handle.succeed(), and return the result.
         # TODO 11: leave the loop also where goal_handle.is_cancel_requested is
         #          True. Then call goal_handle.canceled(), not succeed().
 
@@ -88,12 +101,10 @@ def steer(place, goal):
 
 def main(args=None):
     """Run the server until Ctrl-C."""
-    # This part is complete. The executor has several threads: while one of them
-    # drives, another one hears where the rover is, and takes the request to
-    # cancel.
+    # This part is complete.
     try:
         rclpy.init(args=args)
-        rclpy.spin(DriveServer(), executor=MultiThreadedExecutor())
+        rclpy.spin(DriveServer())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass  # Ctrl-C is the usual way to end a node
     finally:

@@ -1,5 +1,7 @@
 """The speed limiter: passes each command on, no faster than its parameters allow."""
 
+import math
+
 import rclpy
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import (
@@ -44,6 +46,8 @@ class SpeedLimiter(Node):
         careful = self.get_parameter('careful').value
         name = 'slow_speed' if careful else 'max_speed'
         limit = self.get_parameter(name).value
+        if math.isnan(command.linear.x):
+            command.linear.x = 0.0  # each comparison with nan is False
         command.linear.x = max(-limit, min(command.linear.x, limit))
         self.publisher.publish(command)
 

@@ -31,7 +31,8 @@ class SpeedLimiter(Node):
 
     def limit(self, command):
         """Publish a command with its speed cut to the limit."""
-        # TODO 5: read the limit from the parameter that counts now.
+        # TODO 5: read the limit from the parameter that counts now. A speed that is
+        #         no number (math.isnan tells) becomes 0.
         limit = 0.5  # m/s
         command.linear.x = max(-limit, min(command.linear.x, limit))
         self.publisher.publish(command)

@@ -14,23 +14,23 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from ros_doctor import typed
+from ros_doctor import usage
 from ros_doctor.breaks.exercises import EXERCISES, Exercise
 from ros_doctor.breaks.grade import MARK, grade
 from ros_doctor.breaks.injuries import (
     HEALTHY,
-    BuildFailed,
+    CopyBuildFailed,
     NoColcon,
     change_after_build,
 )
-from ros_doctor.machine import Machine, this_machine
+from ros_doctor.machine import ExaminedMachine, this_machine
 from ros_doctor.mends import quoted
 
 DONE, NOT_MENDED, WRONG_USE = 0, 1, 2
 WIDTH = 79
 
 
-class WrongUse(Exception):
+class WrongUseOfBreak(Exception):
     """The command was typed wrongly, or cannot work here; the message says what to type."""
 
 
@@ -38,7 +38,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Break a copy, or grade a mend; return the exit code."""
     try:
         return _run(_parser().parse_args(argv), this_machine())
-    except WrongUse as problem:
+    except WrongUseOfBreak as problem:
         print(f"{_program()}: {problem}", file=sys.stderr)
         return WRONG_USE
     except KeyboardInterrupt:
@@ -47,7 +47,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
-        raise WrongUse(f"{message}. Type {_exercises()} --list to see the exercises.")
+        raise WrongUseOfBreak(f"{message}. Type {_exercises()} --list to see the exercises.")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -63,7 +63,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _run(words: argparse.Namespace, machine: Machine) -> int:
+def _run(words: argparse.Namespace, machine: ExaminedMachine) -> int:
     if words.list or words.number is None:
         for exercise in EXERCISES:
             print(f"{exercise.number:>3}  {exercise.title}")
@@ -76,11 +76,11 @@ def _run(words: argparse.Namespace, machine: Machine) -> int:
 
 def _numbered(number: int) -> Exercise:
     if not 1 <= number <= len(EXERCISES):
-        raise WrongUse(f"there is no exercise {number}. They go from 1 to {len(EXERCISES)}.")
+        raise WrongUseOfBreak(f"there is no exercise {number}. They go from 1 to {len(EXERCISES)}.")
     return EXERCISES[number - 1]
 
 
-def home_of_breaks(machine: Machine) -> Path:
+def home_of_breaks(machine: ExaminedMachine) -> Path:
     """Return the folder of all exercises: ROSLINGS_BREAKS, or `~/roslings_breaks`."""
     named = machine.env.get("ROSLINGS_BREAKS", "")
     return Path(os.path.abspath(named)) if named else machine.home / "roslings_breaks"  # noqa: PTH100
@@ -91,14 +91,14 @@ def _program() -> str:
 
 
 def _exercises() -> str:
-    return typed.exercises(this_machine())
+    return usage.exercises(this_machine())
 
 
 def _doctor() -> str:
-    return typed.doctor(this_machine())
+    return usage.doctor(this_machine())
 
 
-def _begin(exercise: Exercise, folder: Path, machine: Machine) -> int:
+def _begin(exercise: Exercise, folder: Path, machine: ExaminedMachine) -> int:
     if folder.exists():
         print(f"Exercise {exercise.number} is there already. Nothing was changed.")
         print(f"To begin it anew, remove it first:  rm -r {quoted(folder)}\n")
@@ -108,7 +108,7 @@ def _begin(exercise: Exercise, folder: Path, machine: Machine) -> int:
     return DONE
 
 
-def _injure(exercise: Exercise, folder: Path, machine: Machine) -> None:
+def _injure(exercise: Exercise, folder: Path, machine: ExaminedMachine) -> None:
     """Make the broken copy beside its place, and move it there when it is whole."""
     draft = folder.with_name(f".{folder.name}.{os.getpid()}")
     try:
@@ -122,9 +122,9 @@ def _injure(exercise: Exercise, folder: Path, machine: Machine) -> None:
         draft.rename(folder)
         if exercise.builds:  # a build keeps the paths it was made with
             change_after_build(folder, machine)
-    except (NoColcon, BuildFailed, OSError) as problem:
+    except (NoColcon, CopyBuildFailed, OSError) as problem:
         shutil.rmtree(folder if exercise.builds else draft, ignore_errors=True)
-        raise WrongUse(_why_not(problem, folder)) from problem
+        raise WrongUseOfBreak(_why_not(problem, folder)) from problem
     finally:
         shutil.rmtree(draft, ignore_errors=True)
 
@@ -132,7 +132,7 @@ def _injure(exercise: Exercise, folder: Path, machine: Machine) -> None:
 def _why_not(problem: Exception, folder: Path) -> str:
     if isinstance(problem, NoColcon):
         return f"this exercise needs colcon. See {_doctor()} --explain colcon"
-    if isinstance(problem, BuildFailed):
+    if isinstance(problem, CopyBuildFailed):
         return f"colcon could not build the copy. See {_doctor()}. It said:\n{problem}"
     reason = problem.strerror if isinstance(problem, OSError) else problem
     return f"{folder} cannot be written ({reason}). Set ROSLINGS_BREAKS to another folder."
@@ -144,7 +144,7 @@ def _script(exercise: Exercise) -> str:
     return "\n".join([*lines, f"export {MARK}={exercise.number}", ""])
 
 
-def task_lines(exercise: Exercise, folder: Path, machine: Machine) -> Iterator[str]:
+def task_lines(exercise: Exercise, folder: Path, machine: ExaminedMachine) -> Iterator[str]:
     """Yield the task as the student reads it."""
     course = quoted(machine.clone / "roslings")
     here = f"{course} doctor" if machine.has_course else "ros-doctor"
@@ -175,9 +175,9 @@ def task_lines(exercise: Exercise, folder: Path, machine: Machine) -> Iterator[s
     yield f"       {again} {exercise.number} --check"
 
 
-def _check(exercise: Exercise, folder: Path, machine: Machine) -> int:
+def _check(exercise: Exercise, folder: Path, machine: ExaminedMachine) -> int:
     if not folder.exists():
-        raise WrongUse(
+        raise WrongUseOfBreak(
             f"exercise {exercise.number} has not begun. Type {_exercises()} {exercise.number}"
         )
     result = grade(exercise, folder, machine)

@@ -10,8 +10,8 @@ from typing import Any
 from ros_doctor.breaks.exercises import Exercise
 from ros_doctor.document import document
 from ros_doctor.examine import examine
-from ros_doctor.machine import Machine
-from ros_doctor.packages import Package, imported_packages, parse
+from ros_doctor.machine import ExaminedMachine
+from ros_doctor.packages import WorkspacePackage, imported_packages, parse
 from ros_doctor.registry import all_checks
 
 MARK = "ROSLINGS_BREAK"  # set by the file that a student sources, so that we know the terminal
@@ -19,28 +19,28 @@ WELL = ("ok", "not applicable", "advice")
 
 
 @dataclass(frozen=True)
-class Grade:
+class ExerciseGrade:
     """Is it mended? `reason` says in a sentence what is still wrong."""
 
     mended: bool
     reason: str = ""
 
 
-def grade(exercise: Exercise, folder: Path, machine: Machine) -> Grade:
+def grade(exercise: Exercise, folder: Path, machine: ExaminedMachine) -> ExerciseGrade:
     """Grade the mend of one exercise."""
     if exercise.in_terminal:
         return _terminal(exercise, machine)
     lost = what_is_lost(folder)
     if lost:
-        return Grade(False, lost)
+        return ExerciseGrade(False, lost)
     theme = tuple(check.id for check in all_checks() if check.theme == "workspace")
     seen = doctor_json(replace(machine, workspace=folder), theme)
     return _judge(seen, exercise.checks, theme)
 
 
-def _terminal(exercise: Exercise, machine: Machine) -> Grade:
+def _terminal(exercise: Exercise, machine: ExaminedMachine) -> ExerciseGrade:
     if machine.env.get(MARK) != str(exercise.number):
-        return Grade(
+        return ExerciseGrade(
             False,
             "This terminal is not the injured one. Type the source command first,"
             " find the symptom, mend it, and check in the same terminal.",
@@ -48,24 +48,24 @@ def _terminal(exercise: Exercise, machine: Machine) -> Grade:
     return _judge(doctor_json(machine, exercise.checks), exercise.checks, ())
 
 
-def doctor_json(machine: Machine, ids: tuple[str, ...]) -> dict[str, Any]:
+def doctor_json(machine: ExaminedMachine, ids: tuple[str, ...]) -> dict[str, Any]:
     """Return what `./roslings doctor --json --only ...` prints, read back."""
     checks = [check for check in all_checks() if check.id in ids]
     read: dict[str, Any] = json.loads(json.dumps(document(examine(machine, checks))))
     return read
 
 
-def _judge(seen: dict[str, Any], wanted: tuple[str, ...], others: tuple[str, ...]) -> Grade:
+def _judge(seen: dict[str, Any], wanted: tuple[str, ...], others: tuple[str, ...]) -> ExerciseGrade:
     for check in seen["checks"]:
         healed = check["status"] == "ok" if check["id"] in wanted else check["status"] in WELL
         if not healed and (check["id"] in wanted or check["id"] in others):
-            return Grade(False, check["found"])
-    return Grade(True)
+            return ExerciseGrade(False, check["found"])
+    return ExerciseGrade(True)
 
 
 def what_is_lost(folder: Path) -> str:
     """Return what the student threw away instead of mending it, or ""."""
-    package = Package(folder / "src" / "greeter")
+    package = WorkspacePackage(folder / "src" / "greeter")
     for name in ("package.xml", "setup.py", "greeter/hello.py", "launch/greet.launch.xml"):
         if not (package.folder / name).exists():
             return f"The file src/greeter/{name} is gone. Mend it; do not delete it."

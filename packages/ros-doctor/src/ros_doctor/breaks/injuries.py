@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from ros_doctor.machine import Machine
+from ros_doctor.machine import ExaminedMachine
 from ros_doctor.ros import find_ros
 
 HEALTHY = Path(__file__).parent / "healthy"
@@ -17,7 +17,7 @@ class NoColcon(Exception):
     """The injury needs a build, and there is no colcon."""
 
 
-class BuildFailed(Exception):
+class CopyBuildFailed(Exception):
     """colcon could not build the copy; the text is what it said last."""
 
 
@@ -55,21 +55,21 @@ def build_inside_src(workspace: Path) -> None:
         (folder / "COLCON_IGNORE").touch()
 
 
-def change_after_build(workspace: Path, machine: Machine) -> None:
+def change_after_build(workspace: Path, machine: ExaminedMachine) -> None:
     """Build for real, then change the source.
 
     Raises:
-        NoColcon, BuildFailed: the copy cannot be built on this machine.
+        NoColcon, CopyBuildFailed: the copy cannot be built on this machine.
     """
     build(workspace, machine)
     _replace(workspace / PACKAGE / "greeter" / "hello.py", 'data="Hello"', 'data="Good morning"')
 
 
-def build(workspace: Path, machine: Machine) -> None:
+def build(workspace: Path, machine: ExaminedMachine) -> None:
     """Build a workspace with colcon, as the student would.
 
     Raises:
-        NoColcon, BuildFailed: it cannot be built on this machine.
+        NoColcon, CopyBuildFailed: it cannot be built on this machine.
     """
     ros = find_ros(machine)
     program = machine.which("colcon") or (ros.prefix / "bin/colcon" if ros else None)
@@ -81,7 +81,7 @@ def build(workspace: Path, machine: Machine) -> None:
         str(program), log, "build", f"--base-paths={workspace}", *places, timeout_s=BUILDING_S
     )
     if ran is None or ran.code != 0:
-        raise BuildFailed(ran.output[-300:] if ran else "it took too long")
+        raise CopyBuildFailed(ran.output[-300:] if ran else "it took too long")
 
 
 def _replace(path: Path, old: str, new: str) -> None:

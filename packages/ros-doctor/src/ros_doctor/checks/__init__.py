@@ -1,7 +1,7 @@
 """The checks, by theme. Importing this package registers them.
 
-The order of the imports is the order of mending: the computer before ROS, ROS before the shell,
-the shell before the network, and so on to the notebook.
+The order of the imports is the order of mending. The computer comes before ROS, ROS before the
+shell, the shell before the network, and so on to the notebook.
 """
 
 from ros_doctor.checks import computer  # isort: skip

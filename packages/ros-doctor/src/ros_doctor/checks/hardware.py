@@ -18,10 +18,11 @@ from ros_doctor.finding import (
     unknown,
     warning,
 )
-from ros_doctor.machine import Machine, read_text
+from ros_doctor.machine import ExaminedMachine, read_text
 from ros_doctor.mends import container_with
 from ros_doctor.registry import check
 from ros_doctor.surroundings import container, pi_model, release, virtual_machine, wsl
+from ros_doctor.texts import said
 
 SERIAL_PATTERNS = ("ttyACM*", "ttyUSB*", "cu.usbmodem*", "cu.usbserial*")
 # USB numbers of the chips on Arduino boards and their copies.
@@ -36,7 +37,7 @@ HOT_C = 80.0  # a Raspberry Pi slows itself down from here on
 OLD_PIS = ("Raspberry Pi 3", "Raspberry Pi 2", "Raspberry Pi Model", "Raspberry Pi Zero")
 
 
-def serial_ports(machine: Machine) -> list[Path]:
+def serial_ports(machine: ExaminedMachine) -> list[Path]:
     """Return the serial ports of boards that are plugged in."""
     folder = machine.path("/dev")
     return sorted(path for pattern in SERIAL_PATTERNS for path in folder.glob(pattern))
@@ -59,35 +60,61 @@ def open_problem(path: Path) -> int:
     lesson="06-serial-bridge#find-the-port",
     rows=(28,),
 )
-def serial_found(machine: Machine) -> Finding:
+def serial_found(machine: ExaminedMachine) -> Finding:
     """'could not open port /dev/ttyACM0: No such file or directory'."""
     ports = serial_ports(machine)
     if ports:
-        return ok(f"There is {', '.join(port.name for port in ports)}.")
+        return ok(
+            said(
+                "doctor.hardware.serial_found.ok",
+                "There is {names}.",
+                names=", ".join(port.name for port in ports),
+            )
+        )
     chip = _serial_chip(machine)
     if chip and container(machine):
         return advice(
-            f"A board ({chip}) is plugged in, but this container was not given its port.",
+            said(
+                "doctor.hardware.serial_found.advice",
+                "A board ({chip}) is plugged in, but this container was not given its port.",
+                chip=chip,
+            ),
             container_with("--device=/dev/ttyUSB0"),
         )
     return _portless(machine, chip) if chip else _no_board(machine)
 
 
-def _portless(machine: Machine, chip: str) -> Finding:
-    again = say("Then pull the plug and put it in again.")
+def _portless(machine: ExaminedMachine, chip: str) -> Finding:
+    again = say(said("doctor.hardware.portless.say", "Then pull the plug and put it in again."))
     if any(machine.path("/usr/lib/udev/rules.d").glob("*brltty*")):
         return fault(
-            f"A board ({chip}) is plugged in, but it has no port. brltty may have taken it.",
-            do("sudo apt remove brltty", "Remove brltty. It is for Braille displays:"),
+            said(
+                "doctor.hardware.portless.fault",
+                "A board ({chip}) is plugged in, but it has no port. brltty may have taken it.",
+                chip=chip,
+            ),
+            do(
+                "sudo apt remove brltty",
+                said("doctor.hardware.portless.do", "Remove brltty. It is for Braille displays:"),
+            ),
             again,
         )
     return warning(
-        f"A board ({chip}) is plugged in, but it has no port.",
-        say("Try another cable and another USB port. Some cables only charge."),
+        said(
+            "doctor.hardware.portless.warning",
+            "A board ({chip}) is plugged in, but it has no port.",
+            chip=chip,
+        ),
+        say(
+            said(
+                "doctor.hardware.portless.say_2",
+                "Try another cable and another USB port. Some cables only charge.",
+            )
+        ),
     )
 
 
-def _serial_chip(machine: Machine) -> str:
+def _serial_chip(machine: ExaminedMachine) -> str:
     for path in machine.path("/sys/bus/usb/devices").glob("*/idVendor"):
         maker = SERIAL_CHIPS.get(read_text(path).strip(), "")
         if maker:
@@ -95,15 +122,24 @@ def _serial_chip(machine: Machine) -> str:
     return ""
 
 
-def _no_board(machine: Machine) -> Finding:
-    none = "No board is visible. Day 6 has a stand-in without hardware."
+def _no_board(machine: ExaminedMachine) -> Finding:
+    none = said(
+        "doctor.hardware.no_board", "No board is visible. Day 6 has a stand-in without hardware."
+    )
     if wsl(machine):
         return advice(
-            f"{none} WSL does not show USB devices by itself.",
+            said(
+                "doctor.hardware.no_board.advice",
+                "{none} WSL does not show USB devices by itself.",
+                none=none,
+            ),
             do(
                 "winget install usbipd\nusbipd list\nusbipd bind --busid 1-4\n"
                 "usbipd attach --wsl --busid 1-4",
-                "With a board: in PowerShell as administrator, with your board's number:",
+                said(
+                    "doctor.hardware.no_board.do",
+                    "With a board: in PowerShell as administrator, with your board's number:",
+                ),
             ),
         )
     if container(machine):
@@ -111,10 +147,26 @@ def _no_board(machine: Machine) -> Finding:
     program = virtual_machine(machine)
     if program:
         return advice(
-            f"{none} This is a virtual machine ({program}).",
-            say(f"With a board: in {program}, hand its USB device to this machine."),
+            said(
+                "doctor.hardware.no_board.advice_3",
+                "{none} This is a virtual machine ({program}).",
+                none=none,
+                program=program,
+            ),
+            say(
+                said(
+                    "doctor.hardware.no_board.say",
+                    "With a board: in {program}, hand its USB device to this machine.",
+                    program=program,
+                )
+            ),
         )
-    return not_applicable("no board is plugged in; day 6 has a stand-in without hardware")
+    return not_applicable(
+        said(
+            "doctor.hardware.no_board.not_applicable",
+            "no board is plugged in; day 6 has a stand-in without hardware",
+        )
+    )
 
 
 @check(
@@ -124,35 +176,68 @@ def _no_board(machine: Machine) -> Finding:
     lesson="06-serial-bridge#permission",
     rows=(27,),
 )
-def serial_open(machine: Machine) -> Finding:
+def serial_open(machine: ExaminedMachine) -> Finding:
     """'could not open port /dev/ttyACM0: [Errno 13] Permission denied'."""
     ports = serial_ports(machine)
     if not ports:
-        return not_applicable("there is no serial port")
+        return not_applicable(
+            said("doctor.hardware.serial_open.not_applicable", "there is no serial port")
+        )
     for port in ports:
         shown = f"/dev/{port.name}"
         user = _holder(machine, port)
         if user:
             return advice(
-                f"{shown} is in use by program {user}. Only one program can use a board.",
-                do(f"ps -p {user} -o pid,comm,args", "See which one it is, and end it there:"),
+                said(
+                    "doctor.hardware.serial_open.advice",
+                    "{shown} is in use by program {user}. Only one program can use a board.",
+                    shown=shown,
+                    user=user,
+                ),
+                do(
+                    f"ps -p {user} -o pid,comm,args",
+                    said(
+                        "doctor.hardware.serial_open.do", "See which one it is, and end it there:"
+                    ),
+                ),
             )
         problem = open_problem(port)
         if problem:
             return _serial_mend(shown, port, problem)
-    return ok(f"{len(ports)} open." if len(ports) > 1 else f"/dev/{ports[0].name} opens.")
+    return ok(
+        said("doctor.hardware.serial_open.ok_if", "{count} open.", count=len(ports))
+        if len(ports) > 1
+        else said("doctor.hardware.serial_open.ok_else", "/dev/{name} opens.", name=ports[0].name)
+    )
 
 
 def _serial_mend(shown: str, port: Path, problem: int) -> Finding:
     if problem == errno.EBUSY:
         return advice(
-            f"{shown} is in use by another program.",
-            do(f"fuser -v {shown}", "See which one it is, and end it there:"),
+            said(
+                "doctor.hardware.serial_mend.advice",
+                "{shown} is in use by another program.",
+                shown=shown,
+            ),
+            do(
+                f"fuser -v {shown}",
+                said("doctor.hardware.serial_mend.do", "See which one it is, and end it there:"),
+            ),
         )
     if problem not in (errno.EACCES, errno.EPERM):
         return fault(
-            f"{shown} does not open: {os.strerror(problem)}.",
-            say("Pull the plug, wait for two seconds, and put it in again."),
+            said(
+                "doctor.hardware.serial_mend.fault",
+                "{shown} does not open: {os}.",
+                shown=shown,
+                os=os.strerror(problem),
+            ),
+            say(
+                said(
+                    "doctor.hardware.serial_mend.say",
+                    "Pull the plug, wait for two seconds, and put it in again.",
+                )
+            ),
         )
     return _forbidden(shown, port)
 
@@ -161,12 +246,28 @@ def _forbidden(shown: str, device: Path) -> Finding:
     group = _group(device)
     if group in ("", "root"):  # as a container shows a device of its host
         return fault(
-            f"You may not use {shown}.", do(f"sudo chmod a+rw {shown}", "Open it for all:")
+            said("doctor.hardware.forbidden.fault", "You may not use {shown}.", shown=shown),
+            do(
+                f"sudo chmod a+rw {shown}", said("doctor.hardware.forbidden.do", "Open it for all:")
+            ),
         )
     return fault(
-        f"You may not use {shown}. It belongs to the group {group}.",
-        do(f'sudo usermod -aG {group} "$USER"', "Join that group:"),
-        say("Log out of the computer and log in again. Only then does it count."),
+        said(
+            "doctor.hardware.forbidden.fault_2",
+            "You may not use {shown}. It belongs to the group {group}.",
+            shown=shown,
+            group=group,
+        ),
+        do(
+            f'sudo usermod -aG {group} "$USER"',
+            said("doctor.hardware.forbidden.do_2", "Join that group:"),
+        ),
+        say(
+            said(
+                "doctor.hardware.forbidden.say",
+                "Log out of the computer and log in again. Only then does it count.",
+            )
+        ),
     )
 
 
@@ -180,7 +281,7 @@ def _group(path: Path) -> str:
         return ""
 
 
-def _holder(machine: Machine, device: Path) -> str:
+def _holder(machine: ExaminedMachine, device: Path) -> str:
     """Return the number of a program of yours that holds the device open, or ""."""
     real = os.path.realpath(device)
     for folder in machine.path("/proc").glob("[0-9]*/fd"):
@@ -204,19 +305,33 @@ def _links(folder: Path) -> Iterator[Path]:
     looks_at="/dev/video*, by opening each for a moment",
     lesson="07-pi-camera#camera",
 )
-def camera(machine: Machine) -> Finding:
+def camera(machine: ExaminedMachine) -> Finding:
     """The picture stays black: 'can't open camera by index'."""
     devices = sorted(machine.path("/dev").glob("video*"))
     if not devices:
-        return not_applicable("no camera is plugged in; day 7 has a stand-in without hardware")
+        return not_applicable(
+            said(
+                "doctor.hardware.camera.not_applicable",
+                "no camera is plugged in; day 7 has a stand-in without hardware",
+            )
+        )
     for device in devices:
         problem = open_problem(device)
         shown = f"/dev/{device.name}"
         if problem in (errno.EACCES, errno.EPERM):
             return _forbidden(shown, device)
         if problem == errno.EBUSY:
-            return advice(f"{shown} is in use.", say("Close the program that shows its picture."))
-    return ok(f"{len(devices)} video devices open." if len(devices) > 1 else f"{shown} opens.")
+            return advice(
+                said("doctor.hardware.camera.advice", "{shown} is in use.", shown=shown),
+                say(
+                    said("doctor.hardware.camera.say", "Close the program that shows its picture.")
+                ),
+            )
+    return ok(
+        said("doctor.hardware.camera.ok_if", "{count} video devices open.", count=len(devices))
+        if len(devices) > 1
+        else said("doctor.hardware.camera.ok_else", "{shown} opens.", shown=shown)
+    )
 
 
 @check(
@@ -225,20 +340,36 @@ def camera(machine: Machine) -> Finding:
     looks_at="/proc/device-tree/model and the size of the memory",
     lesson="reference/real-robot#prepare-the-pi",
 )
-def pi(machine: Machine) -> Finding:
+def pi(machine: ExaminedMachine) -> Finding:
     """Every command takes long, or a program ends with 'Killed'."""
     model = pi_model(machine)
     if not model:
-        return not_applicable("this is not a Raspberry Pi")
+        return not_applicable(
+            said("doctor.hardware.pi.not_applicable", "this is not a Raspberry Pi")
+        )
     if "64" not in machine.architecture:
         return fault(
-            f"{model} runs a system of 32 bits. Jazzy needs one of 64 bits.",
-            say("Write Ubuntu 24.04 (64 bits) to the card, with Raspberry Pi Imager."),
+            said(
+                "doctor.hardware.pi.fault",
+                "{model} runs a system of 32 bits. Jazzy needs one of 64 bits.",
+                model=model,
+            ),
+            say(
+                said(
+                    "doctor.hardware.pi.say",
+                    "Write Ubuntu 24.04 (64 bits) to the card, with Raspberry Pi Imager.",
+                )
+            ),
         )
     if model.startswith(OLD_PIS):
         return advice(
-            f"{model} is slow for ROS 2.",
-            say("Use it without a desktop. Look at pictures and graphs on your laptop."),
+            said("doctor.hardware.pi.advice", "{model} is slow for ROS 2.", model=model),
+            say(
+                said(
+                    "doctor.hardware.pi.say_2",
+                    "Use it without a desktop. Look at pictures and graphs on your laptop.",
+                )
+            ),
         )
     return ok(model)
 
@@ -250,24 +381,49 @@ def pi(machine: Machine) -> Finding:
     lesson="reference/real-robot#prepare-the-pi",
     live=True,
 )
-def pi_power(machine: Machine) -> Finding:
+def pi_power(machine: ExaminedMachine) -> Finding:
     """A lightning sign on the screen, and rates that drop after some minutes."""
     if not pi_model(machine):
-        return not_applicable("this is not a Raspberry Pi")
+        return not_applicable(
+            said("doctor.hardware.pi_power.not_applicable", "this is not a Raspberry Pi")
+        )
     heat = machine.read("/sys/class/thermal/thermal_zone0/temp").strip()
     celsius = int(heat) / 1000 if heat.isdigit() else 0.0
     known = _throttled(machine)
     flags = known or 0
     if flags & LOW_VOLTAGE:
-        return warning("The power supply is too weak.", say("Use the supply made for your Pi."))
+        return warning(
+            said("doctor.hardware.pi_power.warning", "The power supply is too weak."),
+            say(said("doctor.hardware.pi_power.say", "Use the supply made for your Pi.")),
+        )
     if flags & SLOWED or celsius >= HOT_C:
         return warning(
-            f"The Pi is hot ({celsius:.0f} C) and slows itself down.",
-            say("Give it a fan or a heat sink, and take it out of a closed box."),
+            said(
+                "doctor.hardware.pi_power.warning_2",
+                "The Pi is hot ({celsius:.0f} C) and slows itself down.",
+                celsius=celsius,
+            ),
+            say(
+                said(
+                    "doctor.hardware.pi_power.say_2",
+                    "Give it a fan or a heat sink, and take it out of a closed box.",
+                )
+            ),
         )
     if known is None:
-        return unknown("vcgencmd did not answer: sudo apt install libraspberrypi-bin")
-    return ok(f"{celsius:.0f} C, and the power is good.")
+        return unknown(
+            said(
+                "doctor.hardware.pi_power.unknown",
+                "vcgencmd did not answer: sudo apt install libraspberrypi-bin",
+            )
+        )
+    return ok(
+        said(
+            "doctor.hardware.pi_power.ok",
+            "{celsius:.0f} C, and the power is good.",
+            celsius=celsius,
+        )
+    )
 
 
 # Bits of `vcgencmd get_throttled`, from the Raspberry Pi documentation (os, "vcgencmd").
@@ -275,7 +431,7 @@ LOW_VOLTAGE = 1 << 0 | 1 << 16  # now, or since the start
 SLOWED = 1 << 1 | 1 << 2 | 1 << 3
 
 
-def _throttled(machine: Machine) -> int | None:
+def _throttled(machine: ExaminedMachine) -> int | None:
     ran = machine.run("vcgencmd", "get_throttled")
     words = ran.output.strip().partition("=")[2] if ran and ran.code == 0 else ""
     try:
@@ -291,17 +447,31 @@ def _throttled(machine: Machine) -> int | None:
     lesson="reference/real-robot#the-ribbon-camera",
     rows=(29,),
 )
-def pi_camera(machine: Machine) -> Finding:
+def pi_camera(machine: ExaminedMachine) -> Finding:
     """camera_ros ends: 'no cameras available'."""
     if not pi_model(machine).startswith("Raspberry Pi 5"):
-        return not_applicable("this is not a Raspberry Pi 5")
+        return not_applicable(
+            said("doctor.hardware.pi_camera.not_applicable", "this is not a Raspberry Pi 5")
+        )
     if any(_has_pisp(folder) for folder in _library_folders(machine)):
-        return ok("libcamera has the part for the Pi 5.")
+        return ok(said("doctor.hardware.pi_camera.ok", "libcamera has the part for the Pi 5."))
     if release(machine).id != "ubuntu":
-        return advice("libcamera has no part for the Pi 5.", do("sudo apt install libcamera-ipa"))
+        return advice(
+            said("doctor.hardware.pi_camera.advice", "libcamera has no part for the Pi 5."),
+            do("sudo apt install libcamera-ipa"),
+        )
     return warning(
-        "The libcamera of this system does not know the Pi 5.",
-        say("Build the Raspberry Pi's own libcamera, beside camera_ros. First get what it needs:"),
+        said(
+            "doctor.hardware.pi_camera.warning",
+            "The libcamera of this system does not know the Pi 5.",
+        ),
+        say(
+            said(
+                "doctor.hardware.pi_camera.say",
+                "Build the Raspberry Pi's own libcamera, beside camera_ros. First get "
+                "what it needs:",
+            )
+        ),
         do(
             "sudo apt install -y python3-colcon-meson meson ninja-build \\\n"
             "  python3-yaml python3-ply python3-jinja2 libgnutls28-dev openssl"
@@ -315,13 +485,16 @@ def pi_camera(machine: Machine) -> Finding:
             "rosdep install -y --from-paths src --ignore-src \\\n"
             "  --rosdistro jazzy --skip-keys=libcamera\n"
             "colcon build",
-            "Then build it, in a workspace of its own:",
+            said("doctor.hardware.pi_camera.do", "Then build it, in a workspace of its own:"),
         ),
-        do("source ~/camera_ws/install/setup.bash", "In each terminal that uses the camera:"),
+        do(
+            "source ~/camera_ws/install/setup.bash",
+            said("doctor.hardware.pi_camera.do_2", "In each terminal that uses the camera:"),
+        ),
     )
 
 
-def _library_folders(machine: Machine) -> Iterator[Path]:
+def _library_folders(machine: ExaminedMachine) -> Iterator[Path]:
     for name in ("usr/lib", "usr/local/lib", "opt/ros/jazzy/lib"):
         yield machine.root / name
     for workspace in (machine.home / "camera_ws", machine.workspace):

@@ -6,10 +6,11 @@ import json
 
 from ros_doctor.finding import Finding, do, fault, not_applicable, ok, say, unknown, warning
 from ros_doctor.live import conversation
-from ros_doctor.machine import Machine
+from ros_doctor.machine import ExaminedMachine
 from ros_doctor.mends import install_package
 from ros_doctor.registry import check
 from ros_doctor.ros import Ros, find_ros
+from ros_doctor.texts import said
 
 SPEAKING_FOR_S = 8.0
 LOOKING_FOR_S = 3.0
@@ -24,35 +25,50 @@ LAST_LINE = 200  # characters of an error that fit into a message
     needs=("ros-found", "rclpy-python", "middleware", "shared-memory"),
     live=True,
 )
-def talk(machine: Machine) -> Finding:
+def talk(machine: ExaminedMachine) -> Finding:
     """The talker says 'Publishing', and the listener stays silent."""
     ros = find_ros(machine)
     if ros is None:
-        return not_applicable("ROS 2 Jazzy is not installed")
+        return not_applicable(
+            said("doctor.live.talk.not_applicable", "ROS 2 Jazzy is not installed")
+        )
     outcome = conversation.exchange(machine, ros, SPEAKING_FOR_S)
     if outcome.heard:
-        return ok("A word went from one process to another.")
+        return ok(said("doctor.live.talk.ok", "A word went from one process to another."))
     if outcome.error:
         return _crashed(machine, ros, outcome.error)
     return fault(
-        f"Two ROS processes ran for {SPEAKING_FOR_S:.0f} seconds, and no message arrived.",
-        say("Look at the findings on multicast and /dev/shm. Then try with all defaults:"),
+        said(
+            "doctor.live.talk.fault",
+            "Two ROS processes ran for {speaking_for_s:.0f} seconds, and no message arrived.",
+            speaking_for_s=SPEAKING_FOR_S,
+        ),
+        say(
+            said(
+                "doctor.live.talk.say",
+                "Look at the findings on multicast and /dev/shm. Then try with all defaults:",
+            )
+        ),
         do("env -u RMW_IMPLEMENTATION -u ROS_DISCOVERY_SERVER ./roslings doctor --only talk"),
     )
 
 
-def _crashed(machine: Machine, ros: Ros, error: str) -> Finding:
-    said = error.strip().splitlines()[-1][-LAST_LINE:]
-    if "std_msgs" in said:
+def _crashed(machine: ExaminedMachine, ros: Ros, error: str) -> Finding:
+    words = error.strip().splitlines()[-1][-LAST_LINE:]
+    if "std_msgs" in words:
         return fault(
-            "The standard messages of ROS are missing.",
+            said("doctor.live.crashed.fault", "The standard messages of ROS are missing."),
             *install_package(
                 machine, "ros-jazzy-common-interfaces", "ros-jazzy-common-interfaces==5.3.6"
             ),
         )
     return fault(
-        f"A ROS process ended with an error: {said}",
-        say("See the whole error, and show it to your instructor:"),
+        said(
+            "doctor.live.crashed.fault_2", "A ROS process ended with an error: {words}", words=words
+        ),
+        say(
+            said("doctor.live.crashed.say", "See the whole error, and show it to your instructor:")
+        ),
         do(f"{ros.python} -c 'import rclpy; rclpy.init()'"),
     )
 
@@ -66,27 +82,44 @@ def _crashed(machine: Machine, ros: Ros, error: str) -> Finding:
     needs=("ros-found", "rclpy-python", "middleware", "domain-id"),
     live=True,
 )
-def qos(machine: Machine) -> Finding:
+def qos(machine: ExaminedMachine) -> Finding:
     """The node is there, the topic is there, and no message arrives."""
     ros = find_ros(machine)
     if ros is None:
-        return not_applicable("ROS 2 Jazzy is not installed")
+        return not_applicable(
+            said("doctor.live.qos.not_applicable", "ROS 2 Jazzy is not installed")
+        )
     if machine.env.get("ROS_AUTOMATIC_DISCOVERY_RANGE") == "OFF":
-        return unknown("the discovery range is OFF")
+        return unknown(said("doctor.live.qos.unknown", "the discovery range is OFF"))
     running = conversation.participants(machine, conversation.domain_of(machine))
     if not running:
-        return not_applicable("no ROS node runs on this computer now")
+        return not_applicable(
+            said("doctor.live.qos.not_applicable_2", "no ROS node runs on this computer now")
+        )
     seen = conversation.look(machine, ros, running, LOOKING_FOR_S)
     if seen is None:
-        return unknown("the observer did not answer; see the check talk")
+        return unknown(
+            said("doctor.live.qos.unknown_2", "the observer did not answer; see the check talk")
+        )
     clashes = [json.loads(line) for line in seen if '"why"' in line]
     if not clashes:
-        return ok("No pair of running nodes is at odds.")
+        return ok(said("doctor.live.qos.ok", "No pair of running nodes is at odds."))
     first = clashes[0]
     return warning(
-        f"On {first['topic']}, {first['subscription']} cannot hear {first['publisher']}."
-        f" Their QoS differs: {_plain(first['why'])}.",
-        say("Give the subscription the same QoS. For a sensor, this one fits:"),
+        said(
+            "doctor.live.qos.warning",
+            "On {topic}, {subscription} cannot hear {publisher}. Their QoS differs: {why}.",
+            topic=first["topic"],
+            subscription=first["subscription"],
+            publisher=first["publisher"],
+            why=_plain(first["why"]),
+        ),
+        say(
+            said(
+                "doctor.live.qos.say",
+                "Give the subscription the same QoS. For a sensor, this one fits:",
+            )
+        ),
         do(
             "from rclpy.qos import qos_profile_sensor_data\n"
             "self.create_subscription(Type, topic, callback,\n"

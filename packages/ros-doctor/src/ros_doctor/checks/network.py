@@ -11,6 +11,7 @@ from pathlib import Path
 
 from ros_doctor.finding import (
     Finding,
+    MendStep,
     advice,
     do,
     fault,
@@ -20,10 +21,11 @@ from ros_doctor.finding import (
     unknown,
     warning,
 )
-from ros_doctor.machine import Machine, exists
+from ros_doctor.machine import ExaminedMachine, exists
 from ros_doctor.mends import lines_that_set, set_to, unset
 from ros_doctor.registry import check
 from ros_doctor.surroundings import container, wsl
+from ros_doctor.texts import said
 
 LAST_SAFE_DOMAIN = 101  # https://docs.ros.org/en/jazzy/Concepts/Intermediate/About-Domain-ID.html
 LAST_DOMAIN = 232  # its ports end at 65535
@@ -40,23 +42,45 @@ PATIENCE_S = 0.3
     lesson="01-install#domain",
     rows=(17,),
 )
-def domain_id(machine: Machine) -> Finding:
+def domain_id(machine: ExaminedMachine) -> Finding:
     """A node stops: 'ROS_DOMAIN_ID is not an integral number', or nodes never meet."""
     value = machine.env.get("ROS_DOMAIN_ID", "")
     if not value:
-        return ok("It is not set: the domain is 0.")
-    why = "Use the same number in every terminal of one robot:"
+        return ok(said("doctor.network.domain_id.ok", "It is not set: the domain is 0."))
+    why = said(
+        "doctor.network.domain_id.why", "Use the same number in every terminal of one robot:"
+    )
     mend = set_to(machine, "ROS_DOMAIN_ID", "0", why)
     if not re.fullmatch(r"\d{1,9}", value):
-        return fault(f"ROS_DOMAIN_ID is '{value}'. It must be a whole number.", *mend)
-    if int(value) > LAST_DOMAIN:
-        return fault(f"ROS_DOMAIN_ID is {value}. The largest is {LAST_DOMAIN}.", *mend)
-    if int(value) > LAST_SAFE_DOMAIN:
-        return warning(
-            f"ROS_DOMAIN_ID is {value}. Above {LAST_SAFE_DOMAIN}, its ports may be taken.",
+        return fault(
+            said(
+                "doctor.network.domain_id.fault",
+                "ROS_DOMAIN_ID is '{value}'. It must be a whole number.",
+                value=value,
+            ),
             *mend,
         )
-    return ok(f"The domain is {int(value)}.")
+    if int(value) > LAST_DOMAIN:
+        return fault(
+            said(
+                "doctor.network.domain_id.fault_2",
+                "ROS_DOMAIN_ID is {value}. The largest is {last_domain}.",
+                value=value,
+                last_domain=LAST_DOMAIN,
+            ),
+            *mend,
+        )
+    if int(value) > LAST_SAFE_DOMAIN:
+        return warning(
+            said(
+                "doctor.network.domain_id.warning",
+                "ROS_DOMAIN_ID is {value}. Above {last_safe_domain}, its ports may be taken.",
+                value=value,
+                last_safe_domain=LAST_SAFE_DOMAIN,
+            ),
+            *mend,
+        )
+    return ok(said("doctor.network.domain_id.ok_2", "The domain is {value}.", value=int(value)))
 
 
 @check(
@@ -66,19 +90,35 @@ def domain_id(machine: Machine) -> Finding:
     lesson="01-install#discovery",
     rows=(18,),
 )
-def localhost_only(machine: Machine) -> Finding:
+def localhost_only(machine: ExaminedMachine) -> Finding:
     """The robot is invisible, and each node prints 'ROS_LOCALHOST_ONLY is deprecated'."""
     value = machine.env.get("ROS_LOCALHOST_ONLY", "")
     if not value:
-        return ok("It is not set.")
+        return ok(said("doctor.network.localhost_only.ok", "It is not set."))
     new = "LOCALHOST" if value == "1" else "SUBNET"
     mend = (
         *unset(machine, "ROS_LOCALHOST_ONLY"),
-        do(f"export ROS_AUTOMATIC_DISCOVERY_RANGE={new}", "Say the same in Jazzy's words:"),
+        do(
+            f"export ROS_AUTOMATIC_DISCOVERY_RANGE={new}",
+            said("doctor.network.localhost_only.do", "Say the same in Jazzy's words:"),
+        ),
     )
     if value == "1":
-        return warning("ROS_LOCALHOST_ONLY is 1. ROS then ignores the discovery range.", *mend)
-    return advice(f"ROS_LOCALHOST_ONLY is {value}. It is outdated and has no effect.", *mend)
+        return warning(
+            said(
+                "doctor.network.localhost_only.warning",
+                "ROS_LOCALHOST_ONLY is 1. ROS then ignores the discovery range.",
+            ),
+            *mend,
+        )
+    return advice(
+        said(
+            "doctor.network.localhost_only.advice",
+            "ROS_LOCALHOST_ONLY is {value}. It is outdated and has no effect.",
+            value=value,
+        ),
+        *mend,
+    )
 
 
 @check(
@@ -88,20 +128,45 @@ def localhost_only(machine: Machine) -> Finding:
     lesson="01-install#discovery",
     rows=(19,),
 )
-def discovery_range(machine: Machine) -> Finding:
+def discovery_range(machine: ExaminedMachine) -> Finding:
     """Two nodes run on one computer, and neither sees the other."""
     value = machine.env.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "")
     name = "ROS_AUTOMATIC_DISCOVERY_RANGE"
     mend = (
-        do(f"export {name}=LOCALHOST", "On one computer:"),
-        do(f"export {name}=SUBNET", "Or, with a robot in the same network:"),
+        do(
+            f"export {name}=LOCALHOST",
+            said("doctor.network.discovery_range.do", "On one computer:"),
+        ),
+        do(
+            f"export {name}=SUBNET",
+            said("doctor.network.discovery_range.do_2", "Or, with a robot in the same network:"),
+        ),
         *lines_that_set(machine, name),
     )
     if value == "OFF":
-        return fault("The discovery range is OFF: no node finds another.", *mend)
+        return fault(
+            said(
+                "doctor.network.discovery_range.fault",
+                "The discovery range is OFF: no node finds another.",
+            ),
+            *mend,
+        )
     if value and value not in RANGES:
-        return warning(f"'{value}' is no discovery range. ROS takes LOCALHOST instead.", *mend)
-    return ok(f"The range is {value or 'SUBNET (nothing is set)'}.")
+        return warning(
+            said(
+                "doctor.network.discovery_range.warning",
+                "'{value}' is no discovery range. ROS takes LOCALHOST instead.",
+                value=value,
+            ),
+            *mend,
+        )
+    return ok(
+        said(
+            "doctor.network.discovery_range.ok",
+            "The range is {value}.",
+            value=value or said("doctor.network.discovery_range.unset", "SUBNET (nothing is set)"),
+        )
+    )
 
 
 @check(
@@ -111,7 +176,7 @@ def discovery_range(machine: Machine) -> Finding:
     " ROS_DISCOVERY_SERVER",
     lesson="reference/real-robot#network",
 )
-def dds_settings(machine: Machine) -> Finding:
+def dds_settings(machine: ExaminedMachine) -> Finding:
     """Nodes behave differently in two terminals, or do not see each other in one."""
     for name in (
         "FASTRTPS_DEFAULT_PROFILES_FILE",
@@ -120,14 +185,30 @@ def dds_settings(machine: Machine) -> Finding:
     ):
         value = machine.env.get(name, "").removeprefix("file://")
         if value and "<" not in value and not exists(Path(value)):
-            return warning(f"{name} names a file that is gone: {value}", *unset(machine, name))
+            return warning(
+                said(
+                    "doctor.network.dds_settings.warning",
+                    "{name} names a file that is gone: {value}",
+                    name=name,
+                    value=value,
+                ),
+                *unset(machine, name),
+            )
     if machine.env.get("ROS_DISCOVERY_SERVER"):
         return advice(
-            "ROS_DISCOVERY_SERVER is set. Nodes meet only while that server runs.",
-            say("Do you use such a server? Then leave it. If not:"),
+            said(
+                "doctor.network.dds_settings.advice",
+                "ROS_DISCOVERY_SERVER is set. Nodes meet only while that server runs.",
+            ),
+            say(
+                said(
+                    "doctor.network.dds_settings.say",
+                    "Do you use such a server? Then leave it. If not:",
+                )
+            ),
             *unset(machine, "ROS_DISCOVERY_SERVER"),
         )
-    return ok("Nothing unusual is set.")
+    return ok(said("doctor.network.dds_settings.ok", "Nothing unusual is set."))
 
 
 @check(
@@ -136,16 +217,21 @@ def dds_settings(machine: Machine) -> Finding:
     looks_at="FASTDDS_BUILTIN_TRANSPORTS and ROS_AUTOMATIC_DISCOVERY_RANGE",
     lesson="03-topics/step-by-step#same-machine",
 )
-def transport(machine: Machine) -> Finding:
+def transport(machine: ExaminedMachine) -> Finding:
     """ros2 topic list shows the topic, but ros2 topic echo prints nothing."""
     value = machine.env.get("FASTDDS_BUILTIN_TRANSPORTS", "")
     near = machine.env.get("ROS_AUTOMATIC_DISCOVERY_RANGE") == "LOCALHOST"
     if value not in ("", "DEFAULT") and near:
         return warning(
-            f"FASTDDS_BUILTIN_TRANSPORTS is {value}. With the range LOCALHOST, messages get lost.",
+            said(
+                "doctor.network.transport.warning",
+                "FASTDDS_BUILTIN_TRANSPORTS is {value}. With the range LOCALHOST, "
+                "messages get lost.",
+                value=value,
+            ),
             *unset(machine, "FASTDDS_BUILTIN_TRANSPORTS"),
         )
-    return ok("They fit.")
+    return ok(said("doctor.network.transport.ok", "They fit."))
 
 
 @check(
@@ -155,30 +241,44 @@ def transport(machine: Machine) -> Finding:
     lesson="01-install#multicast",
     rows=(22,),
 )
-def multicast(machine: Machine) -> Finding:
+def multicast(machine: ExaminedMachine) -> Finding:
     """Two nodes on one computer do not find each other."""
     problem = multicast_problem(LOOPBACK)
     if not problem:
-        return ok("A packet to oneself came back.")
+        return ok(said("doctor.network.multicast.ok", "A packet to oneself came back."))
     mend = (
         do(
             "sudo ip link set lo up\nsudo ip link set lo multicast on\n"
             "sudo ip route add 224.0.0.0/4 dev lo",
-            "Allow it on the inner network card:",
+            said("doctor.network.multicast.do", "Allow it on the inner network card:"),
         ),
-        *(FIREWALL_RULES if machine.which("ufw") else ()),
+        *((firewall_rules(),) if machine.which("ufw") else ()),
     )
     if container(machine):
-        return warning(f"A packet to oneself did not come back ({problem}).", *mend)
-    return fault(f"A packet to oneself did not come back ({problem}).", *mend)
+        return warning(
+            said(
+                "doctor.network.multicast.warning",
+                "A packet to oneself did not come back ({problem}).",
+                problem=problem,
+            ),
+            *mend,
+        )
+    return fault(
+        said(
+            "doctor.network.multicast.fault",
+            "A packet to oneself did not come back ({problem}).",
+            problem=problem,
+        ),
+        *mend,
+    )
 
 
-FIREWALL_RULES = (
-    do(
+def firewall_rules() -> MendStep:
+    """Return how to let multicast pass through ufw."""
+    return do(
         "sudo ufw allow in proto udp to 224.0.0.0/4\nsudo ufw allow in proto udp from 224.0.0.0/4",
-        "Let the firewall pass multicast:",
-    ),
-)
+        said("doctor.network.firewall_rules.do", "Let the firewall pass multicast:"),
+    )
 
 
 def multicast_problem(address: str) -> str:
@@ -195,7 +295,7 @@ def multicast_problem(address: str) -> str:
             while receiver.recv(64) != word:
                 pass  # a stranger's packet to the same group and port
     except TimeoutError:
-        return "it was lost"
+        return said("doctor.network.multicast.lost", "it was lost")
     except OSError as problem:
         return problem.strerror or str(problem)
     return ""
@@ -233,24 +333,45 @@ def _sender(address: str) -> socket.socket:
     lesson="reference/real-robot#network",
     rows=(22,),
 )
-def firewall(machine: Machine) -> Finding:
+def firewall(machine: ExaminedMachine) -> Finding:
     """The robot answers to ping, but its topics do not appear on your laptop."""
     if not machine.linux:
-        return not_applicable("the doctor knows only the firewalls of Linux")
+        return not_applicable(
+            said(
+                "doctor.network.firewall.not_applicable",
+                "the doctor knows only the firewalls of Linux",
+            )
+        )
     if re.search(r"^ENABLED=yes", machine.read("/etc/ufw/ufw.conf"), re.M):
         return advice(
-            "The firewall ufw is on. It may stop the nodes of other computers.",
-            say("Do this only if you use a robot or a second computer."),
-            *FIREWALL_RULES,
+            said(
+                "doctor.network.firewall.advice",
+                "The firewall ufw is on. It may stop the nodes of other computers.",
+            ),
+            say(
+                said(
+                    "doctor.network.firewall.say",
+                    "Do this only if you use a robot or a second computer.",
+                )
+            ),
+            firewall_rules(),
         )
     wants = machine.path("/etc/systemd/system/multi-user.target.wants/firewalld.service")
     if wants.is_symlink() or exists(wants):
         return advice(
-            "The firewall firewalld is on. It may stop the nodes of other computers.",
-            say("Do this only if you use a robot or a second computer."),
+            said(
+                "doctor.network.firewall.advice_2",
+                "The firewall firewalld is on. It may stop the nodes of other computers.",
+            ),
+            say(
+                said(
+                    "doctor.network.firewall.say_2",
+                    "Do this only if you use a robot or a second computer.",
+                )
+            ),
             do("sudo firewall-cmd --add-port=7400-32900/udp"),
         )
-    return ok("ufw and firewalld are off.")
+    return ok(said("doctor.network.firewall.ok", "ufw and firewalld are off."))
 
 
 @check(
@@ -261,22 +382,38 @@ def firewall(machine: Machine) -> Finding:
     rows=(23,),
     live=True,
 )
-def wsl_network(machine: Machine) -> Finding:
+def wsl_network(machine: ExaminedMachine) -> Finding:
     """The robot sees other laptops, but never the one with WSL."""
     if wsl(machine) != 2:
-        return not_applicable("this is not WSL 2")
+        return not_applicable(
+            said("doctor.network.wsl_network.not_applicable", "this is not WSL 2")
+        )
     ran = machine.run("wslinfo", "--networking-mode")
     mode = ran.output.strip() if ran and ran.code == 0 else ""
     if mode == "mirrored":
-        return ok("The network is mirrored.")
+        return ok(said("doctor.network.wsl_network.ok", "The network is mirrored."))
     if not mode:
-        return unknown("this WSL is too old to tell its network mode: run wsl --update in Windows")
+        return unknown(
+            said(
+                "doctor.network.wsl_network.unknown",
+                "this WSL is too old to tell its network mode: run wsl --update in Windows",
+            )
+        )
     return advice(
-        f"The network mode is '{mode}'. Labs work, but a robot cannot reach you.",
-        say("In Windows 11, open the file .wslconfig in your user folder (%UserProfile%)."),
-        say("Write these two lines into it:"),
+        said(
+            "doctor.network.wsl_network.advice",
+            "The network mode is '{mode}'. Labs work, but a robot cannot reach you.",
+            mode=mode,
+        ),
+        say(
+            said(
+                "doctor.network.wsl_network.say",
+                "In Windows 11, open the file .wslconfig in your user folder (%UserProfile%).",
+            )
+        ),
+        say(said("doctor.network.wsl_network.say_2", "Write these two lines into it:")),
         do("[wsl2]\nnetworkingMode=mirrored"),
-        do("wsl --shutdown", "In PowerShell, restart WSL:"),
+        do("wsl --shutdown", said("doctor.network.wsl_network.do", "In PowerShell, restart WSL:")),
     )
 
 
@@ -299,7 +436,7 @@ DAEMON_VARIABLES = (
 )
 
 
-def daemons(machine: Machine) -> list[Daemon]:
+def daemons(machine: ExaminedMachine) -> list[Daemon]:
     """Return the running ros2 daemons that this user may look at."""
     found = []
     for folder in sorted(machine.path("/proc").glob("[0-9]*")):
@@ -332,22 +469,33 @@ def _domain_of(command: list[str], env: dict[str, str]) -> str:
     lesson="reference/faq#a-list-shows-nodes-that-have-ended",
     rows=(20, 21),
 )
-def daemon(machine: Machine) -> Finding:
+def daemon(machine: ExaminedMachine) -> Finding:
     """ros2 node list shows nodes that have ended, or none of those that run."""
     if not exists(machine.path("/proc")):
-        return not_applicable("only Linux lists its programs in /proc")
+        return not_applicable(
+            said("doctor.network.daemon.not_applicable", "only Linux lists its programs in /proc")
+        )
     domain = machine.env.get("ROS_DOMAIN_ID", "") or "0"
     mine = [one for one in daemons(machine) if one.domain == domain]
     if not mine:
-        return ok("No daemon runs; ros2 starts one when it needs it.")
+        return ok(
+            said("doctor.network.daemon.ok", "No daemon runs; ros2 starts one when it needs it.")
+        )
     stale = [
         name
         for name in DAEMON_VARIABLES
         if mine[0].env and mine[0].env.get(name, "") != machine.env.get(name, "")
     ]
     if not stale:
-        return ok("The daemon has the same settings.")
+        return ok(said("doctor.network.daemon.ok_2", "The daemon has the same settings."))
     return warning(
-        f"The daemon was started with another {stale[0]}.",
-        do("ros2 daemon stop", "Stop it. The next ros2 command starts a fresh one:"),
+        said(
+            "doctor.network.daemon.warning",
+            "The daemon was started with another {stale}.",
+            stale=stale[0],
+        ),
+        do(
+            "ros2 daemon stop",
+            said("doctor.network.daemon.do", "Stop it. The next ros2 command starts a fresh one:"),
+        ),
     )

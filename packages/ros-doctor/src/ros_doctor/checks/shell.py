@@ -16,9 +16,10 @@ from ros_doctor.finding import (
     say,
     warning,
 )
-from ros_doctor.machine import Machine, exists, read_text
+from ros_doctor.machine import ExaminedMachine, exists, read_text
 from ros_doctor.mends import STARTUP_FILES, new_terminal, quoted, shell_name
 from ros_doctor.registry import check
+from ros_doctor.texts import said
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class StartupLine:
     sourced: Path
 
 
-def startup_lines(machine: Machine) -> list[StartupLine]:
+def startup_lines(machine: ExaminedMachine) -> list[StartupLine]:
     """Return the lines that source a setup file of ROS or of a workspace."""
     found = []
     for name in STARTUP_FILES:
@@ -57,21 +58,45 @@ def _expanded(text: str, home: Path) -> Path:
     lesson="01-install#source",
     rows=(9,),
 )
-def startup_files(machine: Machine) -> Finding:
+def startup_files(machine: ExaminedMachine) -> Finding:
     """Each new terminal greets you with 'No such file or directory'."""
     lines = startup_lines(machine)
     gone = [line for line in lines if line.sourced.is_absolute() and not _there(machine, line)]
     if not gone:
-        return ok(f"{len(lines)} lines source a setup file." if lines else "No such line.")
+        return ok(
+            said(
+                "doctor.shell.startup_files.ok_if",
+                "{count} lines source a setup file.",
+                count=len(lines),
+            )
+            if lines
+            else said("doctor.shell.startup_files.ok_else", "No such line.")
+        )
     first = gone[0]
     return warning(
-        f"Line {first.number} of {first.file} sources a file that does not exist: {first.sourced}",
-        say(f"Delete this line from {first.file}:  {first.text}"),
-        do(f"nano +{first.number} {first.file}", "This opens the file at that line:"),
+        said(
+            "doctor.shell.startup_files.warning",
+            "Line {number} of {file} sources a file that does not exist: {sourced}",
+            number=first.number,
+            file=first.file,
+            sourced=first.sourced,
+        ),
+        say(
+            said(
+                "doctor.shell.startup_files.say",
+                "Delete this line from {file}:  {text}",
+                file=first.file,
+                text=first.text,
+            )
+        ),
+        do(
+            f"nano +{first.number} {first.file}",
+            said("doctor.shell.startup_files.do", "This opens the file at that line:"),
+        ),
     )
 
 
-def _there(machine: Machine, line: StartupLine) -> bool:
+def _there(machine: ExaminedMachine, line: StartupLine) -> bool:
     system = str(line.sourced).startswith("/opt/")
     return exists(machine.path(str(line.sourced)) if system else line.sourced)
 
@@ -83,17 +108,27 @@ def _there(machine: Machine, line: StartupLine) -> bool:
     lesson="03-topics#source",
     rows=(9,),
 )
-def dead_prefixes(machine: Machine) -> Finding:
+def dead_prefixes(machine: ExaminedMachine) -> Finding:
     """colcon warns: 'The path ... in the environment variable AMENT_PREFIX_PATH doesn't exist'."""
     for variable in ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "CMAKE_PREFIX_PATH"):
         gone = [path for path in machine.variable_paths(variable) if not exists(path)]
         if gone:
             return warning(
-                f"{variable} names a folder that is gone: {gone[0]}",
+                said(
+                    "doctor.shell.dead_prefixes.warning",
+                    "{variable} names a folder that is gone: {gone}",
+                    variable=variable,
+                    gone=gone[0],
+                ),
                 new_terminal(),
-                say("Source your workspace again there, after you built it."),
+                say(
+                    said(
+                        "doctor.shell.dead_prefixes.say",
+                        "Source your workspace again there, after you built it.",
+                    )
+                ),
             )
-    return ok("Every folder exists.")
+    return ok(said("doctor.shell.dead_prefixes.ok", "Every folder exists."))
 
 
 @check(
@@ -103,24 +138,41 @@ def dead_prefixes(machine: Machine) -> Finding:
     lesson="03-topics#source",
     rows=(8,),
 )
-def overlay(machine: Machine) -> Finding:
+def overlay(machine: ExaminedMachine) -> Finding:
     """ros2 run says: 'Package not found'."""
     install = machine.workspace / "install"
     setup = install / f"setup.{shell_name(machine)}"
     if not exists(setup):
-        return not_applicable("nothing is built in the workspace yet")
+        return not_applicable(
+            said("doctor.shell.overlay.not_applicable", "nothing is built in the workspace yet")
+        )
     known = [path.resolve() for path in machine.variable_paths("AMENT_PREFIX_PATH")]
     built = [path.parents[1].resolve() for path in install.glob("*/share/*/package.xml")]
     missing = [path for path in built if path.parent not in known and path not in _parents(known)]
     if not missing:
-        return ok("The workspace is sourced.")
-    mend = do(f"source {quoted(setup)}", "Type this in each terminal where you run your nodes:")
+        return ok(said("doctor.shell.overlay.ok", "The workspace is sourced."))
+    mend = do(
+        f"source {quoted(setup)}",
+        said("doctor.shell.overlay.do", "Type this in each terminal where you run your nodes:"),
+    )
     names = ", ".join(sorted({path.parent.name for path in missing}))
     if len(missing) < len(built):  # sourced before they were built
-        return warning(f"This terminal does not know what you built later: {names}.", mend)
+        return warning(
+            said(
+                "doctor.shell.overlay.warning",
+                "This terminal does not know what you built later: {names}.",
+                names=names,
+            ),
+            mend,
+        )
     return advice(
-        f"This terminal does not know the packages of {machine.workspace}: {names}."
-        " In a terminal where you only build, that is right.",
+        said(
+            "doctor.shell.overlay.advice",
+            "This terminal does not know the packages of {workspace}: {names}. In a "
+            "terminal where you only build, that is right.",
+            workspace=machine.workspace,
+            names=names,
+        ),
         mend,
     )
 
@@ -136,21 +188,38 @@ def _parents(paths: list[Path]) -> set[Path]:
     lesson="03-topics/step-by-step#two-terminals",
     rows=(10,),
 )
-def build_terminal(machine: Machine) -> Finding:
+def build_terminal(machine: ExaminedMachine) -> Finding:
     """A deleted file still runs, or colcon warns about packages that it would override."""
     events = machine.workspace / "log" / "latest_build" / "events.log"
     noted = re.search(r"'AMENT_PREFIX_PATH': '([^']*)'", read_text(events))
     if not exists(events):
-        return not_applicable("colcon has built nothing here yet")
+        return not_applicable(
+            said("doctor.shell.build_terminal.not_applicable", "colcon has built nothing here yet")
+        )
     install = str(machine.workspace / "install")
     before = noted.group(1).split(os.pathsep) if noted else []
     if not any(path == install or path.startswith(install + os.sep) for path in before):
-        return ok("The last build was made in a terminal of its own.")
+        return ok(
+            said(
+                "doctor.shell.build_terminal.ok",
+                "The last build was made in a terminal of its own.",
+            )
+        )
     return advice(
-        "Your last build was made in a terminal that had sourced the same workspace.",
-        say("Open a second terminal and build only there:"),
+        said(
+            "doctor.shell.build_terminal.advice",
+            "Your last build was made in a terminal that had sourced the same workspace.",
+        ),
+        say(
+            said("doctor.shell.build_terminal.say", "Open a second terminal and build only there:")
+        ),
         do(f"cd {quoted(machine.workspace)}\ncolcon build"),
-        say("Source install/setup.bash only in the terminals where you run nodes."),
+        say(
+            said(
+                "doctor.shell.build_terminal.say_2",
+                "Source install/setup.bash only in the terminals where you run nodes.",
+            )
+        ),
     )
 
 
@@ -160,19 +229,23 @@ def build_terminal(machine: Machine) -> Finding:
     looks_at="names like rclpy.py or logging.py in the folder where you are",
     lesson="02-nodes#names",
 )
-def python_path(machine: Machine) -> Finding:
+def python_path(machine: ExaminedMachine) -> Finding:
     """'partially initialized module rclpy', or 'cannot import name ... from rclpy'."""
     hiding = sorted(
         path.name for path in machine.here.glob("*.py") if path.stem in HIDDEN_BY_ACCIDENT
     )
     if not hiding:
-        return ok("No such file in this folder.")
+        return ok(said("doctor.shell.python_path.ok", "No such file in this folder."))
     path = machine.here / hiding[0]
     return warning(
-        f"Your file {path} has the name of a package. Python imports it instead.",
+        said(
+            "doctor.shell.python_path.warning",
+            "Your file {path} has the name of a package. Python imports it instead.",
+            path=path,
+        ),
         do(
             f"mv {quoted(path)} {quoted(path.with_name('my_' + path.name))}",
-            "Give it another name:",
+            said("doctor.shell.python_path.do", "Give it another name:"),
         ),
     )
 

@@ -19,7 +19,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from ros_doctor.machine import Machine
+from ros_doctor.machine import ExaminedMachine
 from ros_doctor.ros import Ros
 
 HERE = Path(__file__).parent
@@ -42,14 +42,14 @@ Process = subprocess.Popen[str]
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ConversationOutcome:
     """Did the word arrive? `error` is what a process that ended too early wrote last."""
 
     heard: bool
     error: str = ""
 
 
-def exchange(machine: Machine, ros: Ros, seconds: float) -> Outcome:
+def exchange(machine: ExaminedMachine, ros: Ros, seconds: float) -> ConversationOutcome:
     """Let a talker and a listener run until the listener has heard a random word.
 
     Waits at most `seconds`; both processes have ended when this returns.
@@ -65,14 +65,14 @@ def exchange(machine: Machine, ros: Ros, seconds: float) -> Outcome:
             return _wait(listener, talker, time.monotonic() + seconds)
 
 
-def _wait(listener: Process, talker: Process, deadline: float) -> Outcome:
+def _wait(listener: Process, talker: Process, deadline: float) -> ConversationOutcome:
     while time.monotonic() < deadline:
         if _readable(listener, STEP_S):
             heard = listener.stdout is not None and "HEARD" in listener.stdout.readline()
-            return Outcome(heard, "" if heard else _last_words(listener))
+            return ConversationOutcome(heard, "" if heard else _last_words(listener))
         if talker.poll() is not None:
-            return Outcome(False, _last_words(talker))
-    return Outcome(False)
+            return ConversationOutcome(False, _last_words(talker))
+    return ConversationOutcome(False)
 
 
 def _readable(running: Process, seconds: float) -> bool:
@@ -85,7 +85,7 @@ def _last_words(ended: Process) -> str:
     return ""
 
 
-def look(machine: Machine, ros: Ros, expected: int, seconds: float) -> list[str] | None:
+def look(machine: ExaminedMachine, ros: Ros, expected: int, seconds: float) -> list[str] | None:
     """Observe the student's own domain until `expected` nodes are seen, at most `seconds`.
 
     Returns what the observer printed, or None where it could not run.
@@ -100,7 +100,7 @@ def look(machine: Machine, ros: Ros, expected: int, seconds: float) -> list[str]
     return answer.splitlines() if '"topics"' in answer else None
 
 
-def quiet(machine: Machine, ros: Ros, logs: Path, domain: str) -> dict[str, str]:
+def quiet(machine: ExaminedMachine, ros: Ros, logs: Path, domain: str) -> dict[str, str]:
     """Return variables for a ROS process that stays on this computer and leaves no log."""
     env = {name: value for name, value in machine.env.items() if name not in DROPPED}
     if ros.python != Path(sys.executable):
@@ -113,19 +113,19 @@ def quiet(machine: Machine, ros: Ros, logs: Path, domain: str) -> dict[str, str]
     }
 
 
-def domain_of(machine: Machine) -> int:
+def domain_of(machine: ExaminedMachine) -> int:
     """Return the student's domain; 0 where nothing or no number is set."""
     value = machine.env.get("ROS_DOMAIN_ID", "")
     return int(value) if value.isdigit() else 0
 
 
-def udp_ports(machine: Machine) -> set[int]:
+def udp_ports(machine: ExaminedMachine) -> set[int]:
     """Return the UDP ports that programs of this computer hold (Linux only)."""
     lines = machine.read("/proc/net/udp").splitlines()[1:]
     return {int(line.split()[1].rpartition(":")[2], 16) for line in lines if ":" in line}
 
 
-def participants(machine: Machine, domain: int) -> int:
+def participants(machine: ExaminedMachine, domain: int) -> int:
     """Count the ROS programs of a domain on this computer, by the ports that DDS gives them.
 
     A program holds port 7400 + 250 * domain + 10 + 2 * n, with an n of its own.
@@ -135,7 +135,7 @@ def participants(machine: Machine, domain: int) -> int:
     return sum(10 <= place < PORTS_PER_DOMAIN and place % 2 == 0 for place in places)
 
 
-def free_domain(machine: Machine) -> int:
+def free_domain(machine: ExaminedMachine) -> int:
     """Return a domain in which no program of this computer has a port."""
     ports = udp_ports(machine)
     used = {(port - FIRST_PORT) // PORTS_PER_DOMAIN for port in ports if port >= FIRST_PORT}

@@ -14,7 +14,7 @@ SPACE = " "
 RIGHT, UP, DOWN = "\x1b[C", "\x1b[A", "\x1b[B"
 
 
-class Keyboard(Protocol):
+class KeySource(Protocol):
     """Where keys come from."""
 
     def next(self, within_s: float) -> str:
@@ -23,7 +23,7 @@ class Keyboard(Protocol):
 
 
 @contextmanager
-def pressed(wanted: bool) -> Iterator[Keyboard | None]:
+def pressed(wanted: bool) -> Iterator[KeySource | None]:
     """The keyboard; None where there is none, or where nobody wants it.
 
     A job in the background has a terminal too, and would be stopped for reading from it.

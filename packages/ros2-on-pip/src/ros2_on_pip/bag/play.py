@@ -8,13 +8,13 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from ros2_on_pip.bag.clock import STEP, BagClock
-from ros2_on_pip.bag.keys import DOWN, RIGHT, SPACE, UP, Keyboard, pressed
-from ros2_on_pip.bag.problem import NotInBag, WrongWords, told
+from ros2_on_pip.bag.keys import DOWN, RIGHT, SPACE, UP, KeySource, pressed
+from ros2_on_pip.bag.problem import NotInBag, WrongBagOptions, told
 from ros2_on_pip.bag.speech import tell
-from ros2_on_pip.discovery import Eye
+from ros2_on_pip.discovery import DirectNode
 from ros2_on_pip.interfaces import UnknownInterface, class_of
 from ros2_on_pip.names import absolute, checked_topic
-from ros2_on_pip.rosbag2.choosing import Choice
+from ros2_on_pip.rosbag2.choosing import TopicFilter
 from ros2_on_pip.rosbag2.metadata import Topic
 from ros2_on_pip.rosbag2.quality import offered, overrides, same
 from ros2_on_pip.rosbag2.reading import BagReader, Message, opened
@@ -40,24 +40,24 @@ def play(options: argparse.Namespace) -> int:
     with (
         told(),
         opened(options.bag_path) as reader,
-        Eye(PLAYER) as eye,
+        DirectNode(PLAYER) as direct_node,
         pressed(not options.disable_keyboard_controls) as keyboard,
     ):
         profiles = overrides(options.qos_profile_overrides_path)
-        voices = dict(_voices(eye, chosen(reader, options), names, profiles))
-        player = Player(eye, reader, voices, keyboard, options)
+        publishers = dict(_publishers_for(direct_node, chosen(reader, options), names, profiles))
+        player = BagPlayback(direct_node, reader, publishers, keyboard, options)
         player.run()
-        arrive(voices.values(), options.wait_for_all_acked)
+        arrive(publishers.values(), options.wait_for_all_acked)
     return OK
 
 
 def renamed(rules: Iterable[str]) -> dict[str, str]:
-    """`old:=new` of each rule, as full names. Raises WrongWords, BadName."""
+    """`old:=new` of each rule, as full names. Raises WrongBagOptions, BadName."""
     found = {}
     for rule in rules:
         old, mark, new = rule.partition(":=")
         if not (old and mark and new):
-            raise WrongWords(f"'{rule}' is no rule for a name. Write OLD:=NEW, e.g. /a:=/b")
+            raise WrongBagOptions(f"'{rule}' is no rule for a name. Write OLD:=NEW, e.g. /a:=/b")
         found[checked_topic(old)] = checked_topic(new)
     return found
 
@@ -69,17 +69,18 @@ def chosen(reader: BagReader, options: argparse.Namespace) -> list[Topic]:
     for name in wanted:
         if name not in there:
             raise NotInBag(name, there)
-    choice = Choice(
+    choice = TopicFilter(
         names=wanted,
         regex=options.regex,
         without_regex=options.exclude_regex,
         without=[absolute(name) for name in options.exclude_topics],
+        whole_names=True,
     )
     return [each for each in reader.metadata.topics if choice.takes(each.name, each.type)]
 
 
-def _voices(
-    eye: Eye, topics: list[Topic], names: dict[str, str], profiles: dict[str, Any]
+def _publishers_for(
+    direct_node: DirectNode, topics: list[Topic], names: dict[str, str], profiles: dict[str, Any]
 ) -> Iterator[tuple[str, Any]]:
     """A publisher for each topic whose type is installed here, by the topic's name in the bag."""
     for topic in topics:
@@ -89,7 +90,7 @@ def _voices(
             tell(PLAYER, f"Topic '{topic.name}' is left out. {problem}", "WARN")
             continue
         name = names.get(topic.name, topic.name)
-        yield topic.name, eye.node.create_publisher(cls, name, _profile(topic, profiles))
+        yield topic.name, direct_node.node.create_publisher(cls, name, _profile(topic, profiles))
 
 
 def _profile(topic: Topic, profiles: dict[str, Any]) -> Any:
@@ -106,42 +107,42 @@ def _profile(topic: Topic, profiles: dict[str, Any]) -> Any:
     return offered(topic.qos)
 
 
-def _time_voice(eye: Eye) -> Any:
+def _clock_publisher(direct_node: DirectNode) -> Any:
     from rosgraph_msgs.msg import Clock
 
-    return eye.node.create_publisher(Clock, "/clock", 10)
+    return direct_node.node.create_publisher(Clock, "/clock", 10)
 
 
-def arrive(voices: Iterable[Any], within_ms: int) -> None:
+def arrive(publishers: Iterable[Any], within_ms: int) -> None:
     """Wait until whoever listens has all messages. Without a word about it, a second."""
     from rclpy.duration import Duration
 
     within_s = ARRIVED_WITHIN_S if within_ms < 0 else within_ms / 1000
-    for voice in voices:
+    for publisher in publishers:
         if within_ms == 0:
-            voice.wait_for_all_acked()
+            publisher.wait_for_all_acked()
         else:
-            voice.wait_for_all_acked(Duration(seconds=within_s))
+            publisher.wait_for_all_acked(Duration(seconds=within_s))
 
 
-class Player:
+class BagPlayback:
     """Plays a bag once, or again and again."""
 
     def __init__(
         self,
-        eye: Eye,
+        direct_node: DirectNode,
         reader: BagReader,
-        voices: dict[str, Any],
-        keyboard: Keyboard | None,
+        publishers: dict[str, Any],
+        keyboard: KeySource | None,
         options: argparse.Namespace,
     ) -> None:
-        self._eye, self._reader, self._voices = eye, reader, voices
+        self._direct_node, self._reader, self._publishers = direct_node, reader, publishers
         self._keyboard, self._options = keyboard, options
         span = reader.metadata.span
         self._begin_ns = span.first_ns + round(options.start_offset * 1e9) if span.count else 0
         self._end_ns = self._begin_ns + round(options.playback_duration * 1e9)
         self._clock = BagClock(self._begin_ns, options.rate, options.start_paused)
-        self._time_voice: Any = _time_voice(eye) if options.clock else None
+        self._clock_publisher: Any = _clock_publisher(direct_node) if options.clock else None
         self._ticking: Any = None
         self._looked_s = 0.0
         self._next = False
@@ -153,7 +154,7 @@ class Player:
             tell(PLAYER, line)
         self._await_listeners()
         while True:
-            self._eye.until(lambda: False, self._options.delay)
+            self._direct_node.until(lambda: False, self._options.delay)
             self._clock.set(self._begin_ns)
             self._tell_time()
             if not (self._once() and self._options.loop):
@@ -161,16 +162,27 @@ class Player:
 
     def _await_listeners(self) -> None:
         """Those who listen now shall not miss the first messages."""
-        self._eye.settle()
-        voices = [*self._voices.values(), *([self._time_voice] if self._time_voice else [])]
-        waiting = [voice for voice in voices if self._eye.ears(voice.topic_name)]
-        self._eye.until(lambda: all(v.get_subscription_count() for v in waiting), MATCHED_WITHIN_S)
+        self._direct_node.settle()
+        publishers = [
+            *self._publishers.values(),
+            *([self._clock_publisher] if self._clock_publisher else []),
+        ]
+        waiting = [
+            publisher
+            for publisher in publishers
+            if self._direct_node.subscriptions(publisher.topic_name)
+        ]
+        self._direct_node.until(
+            lambda: all(v.get_subscription_count() for v in waiting), MATCHED_WITHIN_S
+        )
 
     def _tell_time(self) -> None:
         """From the first message on, as often as it was asked for."""
-        if self._time_voice and not self._ticking:
+        if self._clock_publisher and not self._ticking:
             self._say_time()
-            self._ticking = self._eye.node.create_timer(1 / self._options.clock, self._say_time)
+            self._ticking = self._direct_node.node.create_timer(
+                1 / self._options.clock, self._say_time
+            )
 
     def _say_time(self) -> None:
         """Publish the bag's time on /clock."""
@@ -178,7 +190,7 @@ class Player:
 
         message = Clock()
         message.clock.sec, message.clock.nanosec = divmod(self._clock.now_ns(), 10**9)
-        self._time_voice.publish(message)
+        self._clock_publisher.publish(message)
 
     def _once(self) -> int:
         """How many messages were played."""
@@ -187,12 +199,12 @@ class Player:
             if self._options.playback_duration >= 0 and time_ns > self._end_ns:
                 break
             self._wait_for(time_ns)
-            self._voices[topic].publish(raw)
+            self._publishers[topic].publish(raw)
             count += 1
         return count
 
     def _messages(self) -> Iterator[Message]:
-        return self._reader.messages(lambda name, _: name in self._voices, self._begin_ns)
+        return self._reader.messages(lambda name, _: name in self._publishers, self._begin_ns)
 
     def _wait_for(self, time_ns: int) -> None:
         """Until the clock says so, or until somebody asks for the next message."""
@@ -205,8 +217,8 @@ class Player:
             self._look(0.0)
 
     def _look(self, within_s: float) -> None:
-        self._eye.spin_to(time.monotonic() + within_s)
-        self._eye.spin_some()
+        self._direct_node.spin_to(time.monotonic() + within_s)
+        self._direct_node.spin_some()
         self._looked_s = time.monotonic()
         if self._keyboard and (key := self._keyboard.next(0.0)):
             self._press(key)

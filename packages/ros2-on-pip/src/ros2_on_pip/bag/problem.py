@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 from ros2_on_pip.rosbag2.errors import BagError
 
 
-class BagProblem(Problem):
+class BagProblem(CommandProblem):
     """An error about the bag, in the form of the real command."""
 
     def __init__(self, error: BagError | str) -> None:
         super().__init__(f"[ERROR] [ros2bag]: {error}")
 
 
-class WrongWords(Problem):
+class WrongBagOptions(CommandProblem):
     """Options that say nothing together."""
 
     exit_code = 2
@@ -25,7 +25,7 @@ class WrongWords(Problem):
         super().__init__(f"[ERROR] [ros2bag]: {text}")
 
 
-class NotInBag(Problem):
+class NotInBag(CommandProblem):
     """The bag has no such topic."""
 
     def __init__(self, topic: str, there: list[str]) -> None:

@@ -19,7 +19,7 @@ from ros2_on_pip.shared_options import (
 from ros2_on_pip.words import FAILED, OK, Verbs, add
 
 if TYPE_CHECKING:
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
 
 def declare(command: argparse.ArgumentParser) -> None:
@@ -75,18 +75,18 @@ def _action_name(parser: argparse.ArgumentParser) -> None:
 
 def complete_actions(**_: Any) -> list[str]:
     """Every action, for the Tab key."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye() as eye:
-        return list(actions(eye.settle()))
+    with DirectNode() as direct_node:
+        return list(actions(direct_node.settle()))
 
 
 def list_actions(options: argparse.Namespace) -> int:
     """`ros2 action list`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye.asked_by(options) as eye:
-        found = actions(eye.settle())
+    with DirectNode.asked_by(options) as direct_node:
+        found = actions(direct_node.settle())
     if options.count:
         print(len(found))
         return OK
@@ -97,26 +97,26 @@ def list_actions(options: argparse.Namespace) -> int:
 
 def show_type(options: argparse.Namespace) -> int:
     """`ros2 action type ACTION`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
     name = full_topic(options.action_name)
-    with Eye.asked_by(options) as eye:
-        types = actions(eye.settle()).get(name, [])
-        _say_near(eye, name)
+    with DirectNode.asked_by(options) as direct_node:
+        types = actions(direct_node.settle()).get(name, [])
+        _say_near(direct_node, name)
     print("".join(f"{kind}\n" for kind in types), end="")
     return OK if types else FAILED
 
 
 def show_info(options: argparse.Namespace) -> int:
     """`ros2 action info ACTION`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
     name = absolute(options.action_name)
-    with Eye.asked_by(options) as eye:
-        eye.settle()
-        _say_near(eye, name)
-        clients = dict(by_action(eye, "client")).get(name, [])
-        servers = dict(by_action(eye, "service")).get(name, [])
+    with DirectNode.asked_by(options) as direct_node:
+        direct_node.settle()
+        _say_near(direct_node, name)
+        clients = dict(by_action(direct_node, "client")).get(name, [])
+        servers = dict(by_action(direct_node, "service")).get(name, [])
     print(f"Action: {options.action_name}")
     for title, parties in (("Action clients", clients), ("Action servers", servers)):
         print(f"{title}: {len(parties)}")
@@ -125,12 +125,12 @@ def show_info(options: argparse.Namespace) -> int:
     return OK
 
 
-def _say_near(eye: Eye, name: str) -> None:
+def _say_near(direct_node: DirectNode, name: str) -> None:
     import sys
 
     from ros2_on_pip.problem import did_you_mean
 
-    there = actions(eye)
+    there = actions(direct_node)
     if name not in there:
         print(f"No node has the action '{name}'.{did_you_mean(name, there)}", file=sys.stderr)
 

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.shared_options import also_hidden, complete_topics
 from ros2_on_pip.words import Verbs, add, not_negative, positive, rate, seconds
 
@@ -18,7 +18,7 @@ ABSENT = {
 """Verb to what does the same here."""
 
 
-class NoRosbags(Problem):
+class NoRosbags(CommandProblem):
     """The Python package that reads and writes bags is not installed."""
 
     def __init__(self) -> None:
@@ -178,13 +178,13 @@ def _declare_play(play: argparse.ArgumentParser) -> None:
     play.add_argument("-r", "--rate", type=rate, default=1.0, help="rate at which to play back")
     play.add_argument("-l", "--loop", action="store_true", help="play again and again")
     _list(play, "--topics", "TOPIC", "topics to replay")
-    play.add_argument("-e", "--regex", default="", help="replay topics whose name holds this")
+    play.add_argument("-e", "--regex", default="", help="replay topics whose whole name fits")
     play.add_argument(
         "-x",
         "--exclude-regex",
         default="",
         metavar="REGEX",
-        help="leave out topics whose name holds this",
+        help="leave out topics whose whole name fits",
     )
     _list(play, "--exclude-topics", "TOPIC", "topics to leave out")
     play.add_argument(

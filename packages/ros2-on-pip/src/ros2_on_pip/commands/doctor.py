@@ -8,18 +8,18 @@ from collections.abc import Collection, Sequence
 from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Protocol
 
-from ros2_on_pip.problem import Problem
-from ros2_on_pip.words import FAILED, OK, WRONG_USE, Parser
+from ros2_on_pip.problem import CommandProblem
+from ros2_on_pip.words import FAILED, OK, WRONG_USE, CommandParser
 
 if TYPE_CHECKING:
-    from ros2_on_pip.report import Part
+    from ros2_on_pip.report import ReportPart
 
 GROUP = "ros2_on_pip.doctor"
 
 
-def parser_for(command: str) -> Parser:
+def parser_for(command: str) -> CommandParser:
     """The options of the real one; every other word is for the doctor."""
-    parser = Parser(
+    parser = CommandParser(
         prog=f"ros2 {command}", add_help=False, allow_abbrev=False, usage=argparse.SUPPRESS
     )
     group = parser.add_argument_group("as the real ros2 doctor")
@@ -65,7 +65,7 @@ def run(command: str, words: list[str]) -> int:
     return _examine(options, others)
 
 
-def _help(parser: Parser) -> int:
+def _help(parser: CommandParser) -> int:
     if found := doctor():
         print(found.words_parser(parser.prog).format_help())
     print(parser.format_help())
@@ -73,7 +73,7 @@ def _help(parser: Parser) -> int:
     return OK
 
 
-def _report(parser: Parser, options: argparse.Namespace, others: list[str]) -> int:
+def _report(parser: CommandParser, options: argparse.Namespace, others: list[str]) -> int:
     if unknown := [word for word in others if word != "--redact"]:
         parser.error(f"{' '.join(unknown)} does not go with --report")
     from ros2_on_pip.report import PARTS
@@ -82,11 +82,11 @@ def _report(parser: Parser, options: argparse.Namespace, others: list[str]) -> i
     return OK
 
 
-def _wanted(parts: Collection[Part], options: argparse.Namespace) -> list[Part]:
+def _wanted(parts: Collection[ReportPart], options: argparse.Namespace) -> list[ReportPart]:
     return [part for part in parts if not (part.of_packages and options.exclude_packages)]
 
 
-def _print(parts: list[Part], redact: bool) -> None:
+def _print(parts: list[ReportPart], redact: bool) -> None:
     from ros2_on_pip.report import sections
 
     hidden = needed().hidden if redact else str
@@ -141,7 +141,7 @@ class Doctor(Protocol):
         """The text without names and addresses of this machine."""
 
 
-class NoDoctor(Problem):
+class NoDoctor(CommandProblem):
     """Nothing here examines a machine."""
 
     def __init__(self) -> None:

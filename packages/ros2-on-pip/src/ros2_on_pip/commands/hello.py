@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from ros2_on_pip.words import Parser, positive, rate
+from ros2_on_pip.words import CommandParser, positive, rate
 
 TOPIC = "/canyouhearme"
 
 
-def parser_for(command: str) -> Parser:
+def parser_for(command: str) -> CommandParser:
     """The options; `command` is doctor, or wtf."""
     about = "Check network connectivity between multiple hosts"
-    parser = Parser(prog=f"ros2 {command} hello", description=about)
+    parser = CommandParser(prog=f"ros2 {command} hello", description=about)
     parser.add_argument(
         "-t", "--topic", default=TOPIC, help=f"Name of ROS topic to publish to (default: {TOPIC})"
     )

@@ -137,9 +137,9 @@ def show_text(options: argparse.Namespace) -> int:
 def show_prototype(options: argparse.Namespace) -> int:
     """`ros2 interface proto TYPE`."""
     from ros2_on_pip.interfaces import empty_message
-    from ros2_on_pip.yaml_out import Shape, as_yaml
+    from ros2_on_pip.yaml_out import YamlOptions, as_yaml
 
-    text = as_yaml(empty_message(_whole(options.type)), Shape(longest=None))
+    text = as_yaml(empty_message(_whole(options.type)), YamlOptions(longest=None))
     print(text if options.no_quotes else f'"{text}"')
     return OK
 

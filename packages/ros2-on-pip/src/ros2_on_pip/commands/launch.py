@@ -12,19 +12,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ros2_on_pip import stopping
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 from ros2_on_pip.shared_options import complete_packages
 from ros2_on_pip.words import OK, add
 
 if TYPE_CHECKING:
     from ros2_on_pip.launching.context import LaunchContext
-    from ros2_on_pip.launching.screen import Screen
+    from ros2_on_pip.launching.screen import LaunchOutput
 
 ENDINGS = (".xml", ".yaml", ".yml", ".py")
 ASSIGN = ":="
 
 
-class LaunchFileNotFound(Problem):
+class LaunchFileNotFound(CommandProblem):
     """The package, or the folder, has no such launch file."""
 
     def __init__(self, name: str, where: Path, there: list[str]) -> None:
@@ -37,7 +37,18 @@ class LaunchFileNotFound(Problem):
         )
 
 
-class NoFile(Problem):
+class SeveralLaunchFiles(CommandProblem):
+    """The package has two launch files of one name."""
+
+    def __init__(self, name: str, package: str, found: list[Path]) -> None:
+        paths = ", ".join(f"'{path}'" for path in found)
+        super().__init__(
+            f"file '{name}' was found more than once in the share directory of package"
+            f" '{package}': [{paths}]. Give one of these paths instead: ros2 launch PATH"
+        )
+
+
+class NotALaunchFile(CommandProblem):
     """The path leads to no file."""
 
     def __init__(self, path: Path) -> None:
@@ -47,7 +58,7 @@ class NoFile(Problem):
         )
 
 
-class BadArgument(Problem):
+class BadArgument(CommandProblem):
     """An argument is not of the form name:=value."""
 
     def __init__(self, word: str) -> None:
@@ -80,12 +91,13 @@ def declare(command: argparse.ArgumentParser) -> None:
         action="store_true",
         help="Show the traceback of a fault in a launch file, too.",
     )
+    one_of_them = command.add_mutually_exclusive_group()
     for short, long, about in (
         ("-p", "--print", "Print the launch description to the console without launching it."),
         ("-s", "--show-args", "Show arguments that may be given to the launch file."),
     ):
         names = [short, long] + (["--print-description"] if short == "-p" else ["--show-arguments"])
-        command.add_argument(*names, action="store_true", help=about)
+        one_of_them.add_argument(*names, action="store_true", help=about)
     command.add_argument(
         "-a",
         "--show-all-subprocesses-output",
@@ -111,19 +123,19 @@ def launch(options: argparse.Namespace) -> int:
 
 
 @contextmanager
-def _context(options: argparse.Namespace) -> Iterator[tuple[LaunchContext, Screen]]:
+def _context(options: argparse.Namespace) -> Iterator[tuple[LaunchContext, LaunchOutput]]:
     """What a launch needs around it, with what the options say."""
-    from ros2_on_pip.launching.context import LaunchContext
+    from ros2_on_pip.launching.context import Around, LaunchContext
     from ros2_on_pip.launching.processes import OVERRIDE_OUTPUT
     from ros2_on_pip.launching.provided import offer
     from ros2_on_pip.launching.python_file import show_traces
     from ros2_on_pip.launching.reading import description_in
-    from ros2_on_pip.launching.screen import Screen
+    from ros2_on_pip.launching.screen import LaunchOutput
 
     room = tempfile.TemporaryDirectory(prefix="roslings_launch_")
-    with room as folder, Screen() as screen:
+    with room as folder, LaunchOutput() as screen:
         offer()
-        context = LaunchContext(screen, Path(folder), description_in)
+        context = LaunchContext(around=Around(screen, Path(folder), description_in))
         for name in ("launch_prefix", "launch_prefix_filter"):
             if value := getattr(options, name):
                 context.launch_configurations[name.replace("_", "-")] = value
@@ -147,7 +159,9 @@ def _show(options: argparse.Namespace, context: LaunchContext, path: Path) -> in
     return OK
 
 
-def _carry_out(context: LaunchContext, screen: Screen, path: Path, given: dict[str, str]) -> int:
+def _carry_out(
+    context: LaunchContext, screen: LaunchOutput, path: Path, given: dict[str, str]
+) -> int:
     from ros2_on_pip.launching.service import LaunchService
     from ros2_on_pip.launching.sources import IncludeLaunchDescription
 
@@ -158,13 +172,16 @@ def _carry_out(context: LaunchContext, screen: Screen, path: Path, given: dict[s
 
 
 def chosen_file(options: argparse.Namespace) -> tuple[Path, list[str]]:
-    """The launch file, and the words that are arguments. Raises LaunchFileNotFound, NoFile."""
+    """The launch file, and the words that are arguments.
+
+    Raises LaunchFileNotFound, NotALaunchFile.
+    """
     first, second = options.package_name, options.launch_file_name
     words = list(options.launch_arguments)
     path = Path(first)
     if second is None or ASSIGN in second or (path.is_file() and not _is_package(first)):
         if not path.is_file():
-            raise NoFile(path)
+            raise NotALaunchFile(path)
         return path, [*([second] if second else []), *words]
     return _in_package(first, second), words
 
@@ -180,16 +197,19 @@ def _in_package(package: str, name: str) -> Path:
 
     share = share_of(package)
     files = [p for p in sorted(share.rglob("*")) if p.is_file()]
-    for path in files:
-        if path.name == name:
-            return path
+    found = [path for path in files if path.name == name]
+    if len(found) > 1:
+        raise SeveralLaunchFiles(name, package, found)
+    if found:
+        return found[0]
     there = [p.name for p in files if "launch" in p.name and p.suffix in ENDINGS]
     raise LaunchFileNotFound(name, share, there)
 
 
 def _argument(word: str) -> tuple[str, str]:
+    """Name and value; `a:=` has no value, and `a:=b:=` has one. Raises BadArgument."""
     name, assign, value = word.partition(ASSIGN)
-    if not assign or not name:
+    if not assign or not name or not value:
         raise BadArgument(word)
     return name, value
 

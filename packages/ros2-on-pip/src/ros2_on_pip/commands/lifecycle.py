@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 from ros2_on_pip.commands.node import NodeNotFound
 from ros2_on_pip.names import absolute, is_hidden
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.shared_options import in_node, node_options
 from ros2_on_pip.words import FAILED, OK, Verbs, add
 
 if TYPE_CHECKING:
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
 GET_STATE, STATE_TYPE = "/get_state", "lifecycle_msgs/srv/GetState"
 
 
-class NotALifecycleNode(Problem):
+class NotALifecycleNode(CommandProblem):
     """The node runs, and has no states."""
 
     def __init__(self, node: str, there: list[str]) -> None:
@@ -30,7 +30,7 @@ class NotALifecycleNode(Problem):
         )
 
 
-class UnknownTransition(Problem):
+class UnknownTransition(CommandProblem):
     """The node cannot do this now."""
 
     def __init__(self, transitions: Iterable[Any]) -> None:
@@ -62,13 +62,13 @@ def declare(command: argparse.ArgumentParser) -> None:
 
 def complete_transitions(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """What the node just typed can do now, for the Tab key."""
-    with _seen(parsed_args) as (eye, node):
-        return [one.transition.label for one in _transitions(eye, node)]
+    with _seen(parsed_args) as (direct_node, node):
+        return [one.transition.label for one in _transitions(direct_node, node)]
 
 
-def lifecycle_nodes(eye: Eye, hidden: bool) -> list[str]:
+def lifecycle_nodes(direct_node: DirectNode, hidden: bool) -> list[str]:
     """Full names of the nodes that offer their state."""
-    services = eye.services()
+    services = direct_node.services()
     nodes = [
         name.removesuffix(GET_STATE)
         for name, types in services.items()
@@ -78,30 +78,30 @@ def lifecycle_nodes(eye: Eye, hidden: bool) -> list[str]:
 
 
 @contextmanager
-def _seen(options: argparse.Namespace) -> Iterator[tuple[Eye, str]]:
+def _seen(options: argparse.Namespace) -> Iterator[tuple[DirectNode, str]]:
     """Our eye and the full name of the lifecycle node in `options`.
 
     Raises NodeNotFound, NotALifecycleNode.
     """
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
     node = absolute(options.node_name)
-    with Eye.asked_by(options) as eye:
-        running = eye.settle().nodes(hidden=options.include_hidden_nodes)
+    with DirectNode.asked_by(options, speaks=True) as direct_node:
+        running = direct_node.settle().nodes(hidden=options.include_hidden_nodes)
         if node not in running:
             raise NodeNotFound(options.node_name, running, "Node not found:")
-        there = lifecycle_nodes(eye, options.include_hidden_nodes)
+        there = lifecycle_nodes(direct_node, options.include_hidden_nodes)
         if node not in there:
             raise NotALifecycleNode(node, there)
-        yield eye, node
+        yield direct_node, node
 
 
 def list_nodes(options: argparse.Namespace) -> int:
     """`ros2 lifecycle nodes`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye.asked_by(options) as eye:
-        nodes = lifecycle_nodes(eye.settle(), options.all)
+    with DirectNode.asked_by(options) as direct_node:
+        nodes = lifecycle_nodes(direct_node.settle(), options.all)
     if options.count_nodes:
         print(len(nodes))
     elif nodes:
@@ -112,41 +112,41 @@ def list_nodes(options: argparse.Namespace) -> int:
 def show_states(options: argparse.Namespace) -> int:
     """`ros2 lifecycle get [NODE]`."""
     if options.node_name:
-        with _seen(options) as (eye, node):
-            print(_state(eye, node))
+        with _seen(options) as (direct_node, node):
+            print(_state(direct_node, node))
         return OK
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye.asked_by(options) as eye:
-        for node in lifecycle_nodes(eye.settle(), options.include_hidden_nodes):
-            print(f"{node}: {_state(eye, node)}")
+    with DirectNode.asked_by(options, speaks=True) as direct_node:
+        for node in lifecycle_nodes(direct_node.settle(), options.include_hidden_nodes):
+            print(f"{node}: {_state(direct_node, node)}")
     return OK
 
 
-def _state(eye: Eye, node: str) -> str:
+def _state(direct_node: DirectNode, node: str) -> str:
     from lifecycle_msgs.srv import GetState
 
     from ros2_on_pip.calling import ask
 
-    state = ask(eye, GetState, f"{node}{GET_STATE}", GetState.Request()).current_state
+    state = ask(direct_node, GetState, f"{node}{GET_STATE}", GetState.Request()).current_state
     return f"{state.label} [{state.id}]"
 
 
-def _transitions(eye: Eye, node: str, every: bool = False) -> list[Any]:
+def _transitions(direct_node: DirectNode, node: str, every: bool = False) -> list[Any]:
     from lifecycle_msgs.srv import GetAvailableTransitions
 
     from ros2_on_pip.calling import ask
 
     service = "get_transition_graph" if every else "get_available_transitions"
     request = GetAvailableTransitions.Request()
-    answer = ask(eye, GetAvailableTransitions, f"{node}/{service}", request)
+    answer = ask(direct_node, GetAvailableTransitions, f"{node}/{service}", request)
     return list(answer.available_transitions)
 
 
 def list_transitions(options: argparse.Namespace) -> int:
     """`ros2 lifecycle list NODE`."""
-    with _seen(options) as (eye, node):
-        for one in _transitions(eye, node, options.all):
+    with _seen(options) as (direct_node, node):
+        for one in _transitions(direct_node, node, options.all):
             print(f"- {one.transition.label} [{one.transition.id}]")
             print(f"\tStart: {one.start_state.label}\n\tGoal: {one.goal_state.label}")
     return OK
@@ -158,10 +158,10 @@ def change(options: argparse.Namespace) -> int:
 
     from ros2_on_pip.calling import ask
 
-    with _seen(options) as (eye, node):
-        chosen = _chosen(_transitions(eye, node), options.transition)
+    with _seen(options) as (direct_node, node):
+        chosen = _chosen(_transitions(direct_node, node), options.transition)
         request = ChangeState.Request(transition=chosen)
-        done = ask(eye, ChangeState, f"{node}/change_state", request, again=False).success
+        done = ask(direct_node, ChangeState, f"{node}/change_state", request, again=False).success
     print(
         "Transitioning successful" if done else "Transitioning failed",
         file=sys.stdout if done else sys.stderr,

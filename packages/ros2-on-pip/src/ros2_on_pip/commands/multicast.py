@@ -53,20 +53,20 @@ def port(text: str) -> int:
 
 def receive_one(options: argparse.Namespace) -> int:
     """`ros2 multicast receive`."""
-    from ros2_on_pip.multicast import Ear
+    from ros2_on_pip.multicast import MulticastReceiver
 
-    with Ear(options.group, options.port) as ear:
+    with MulticastReceiver(options.group, options.port) as receiver:
         print("Waiting for UDP multicast datagram...")
-        text, (host, sender) = ear.hear()
+        text, (host, sender) = receiver.hear()
     print(f"Received from {host}:{sender}: '{text}'")
     return OK
 
 
 def send_one(options: argparse.Namespace) -> int:
     """`ros2 multicast send`."""
-    from ros2_on_pip.multicast import Voice
+    from ros2_on_pip.multicast import MulticastSender
 
     print("Sending one UDP multicast datagram...")
-    with Voice(options.group, options.port, options.ttl) as voice:
-        voice.send("Hello World!")
+    with MulticastSender(options.group, options.port, options.ttl) as multicast_sender:
+        multicast_sender.send("Hello World!")
     return OK

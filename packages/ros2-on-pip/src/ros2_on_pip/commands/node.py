@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable
 
 from ros2_on_pip.habits import full_node
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 from ros2_on_pip.shared_options import complete_nodes, count_only, node_options
 from ros2_on_pip.words import OK, Verbs, add
 
@@ -17,7 +17,7 @@ SAME_NAME = (
 )
 
 
-class NodeNotFound(Problem):
+class NodeNotFound(CommandProblem):
     """No running node has that name."""
 
     def __init__(
@@ -48,10 +48,10 @@ def declare(command: argparse.ArgumentParser) -> None:
 
 def list_nodes(options: argparse.Namespace) -> int:
     """`ros2 node list`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye.asked_by(options) as eye:
-        names = eye.settle(only_nodes=True).nodes(hidden=options.all)
+    with DirectNode.asked_by(options) as direct_node:
+        names = direct_node.settle(only_nodes=True).nodes(hidden=options.all)
     if options.count:
         print(len(names))
         return OK
@@ -63,11 +63,11 @@ def list_nodes(options: argparse.Namespace) -> int:
 
 def show_info(options: argparse.Namespace) -> int:
     """`ros2 node info NODE`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye.asked_by(options) as eye:
+    with DirectNode.asked_by(options) as direct_node:
         name = full_node(options.node_name)
-        running = eye.settle().nodes(hidden=options.include_hidden)
+        running = direct_node.settle().nodes(hidden=options.include_hidden)
         if name not in running:
             raise NodeNotFound(options.node_name, running)
         if running.count(name) > 1:
@@ -76,17 +76,17 @@ def show_info(options: argparse.Namespace) -> int:
                 f' "{name}". You are seeing information about only one of them.',
                 file=sys.stderr,
             )
-        print("\n".join([name, *info_lines(eye, name, options.include_hidden)]))
+        print("\n".join([name, *info_lines(direct_node, name, options.include_hidden)]))
     return OK
 
 
-def info_lines(eye: object, name: str, hidden: bool) -> list[str]:
+def info_lines(direct_node: object, name: str, hidden: bool) -> list[str]:
     """The six parts of `node info`, each with its title."""
     from ros2_on_pip.node_parts import parts_of
 
     return [
         line
-        for title, entries in parts_of(eye, name, hidden).items()
+        for title, entries in parts_of(direct_node, name, hidden).items()
         for line in (f"  {title}:", *_entries(entries))
     ]
 

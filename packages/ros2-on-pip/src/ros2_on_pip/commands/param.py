@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Any
 
 from ros2_on_pip.commands.node import NodeNotFound
 from ros2_on_pip.names import absolute
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 from ros2_on_pip.shared_options import in_node, node_options
 from ros2_on_pip.words import FAILED, OK, Verbs, add, seconds
 
 if TYPE_CHECKING:
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
 
-class BadPattern(Problem):
+class BadPattern(CommandProblem):
     """`--filter` is no regular expression."""
 
     def __init__(self, text: str, fault: Exception) -> None:
@@ -29,7 +29,7 @@ class BadPattern(Problem):
         )
 
 
-class NoSuchParameter(Problem):
+class NoSuchParameter(CommandProblem):
     """The node has not declared the parameter."""
 
     def __init__(self, name: str, there: list[str]) -> None:
@@ -105,25 +105,25 @@ def complete_parameters(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
     """The parameters of the node just typed, for the Tab key."""
     from ros2_on_pip.parameters import names_of
 
-    with _seen(parsed_args) as (eye, node):
-        return names_of(eye, node)
+    with _seen(parsed_args) as (direct_node, node):
+        return names_of(direct_node, node)
 
 
 @contextmanager
-def _seen(options: argparse.Namespace) -> Iterator[tuple[Eye, str]]:
+def _seen(options: argparse.Namespace) -> Iterator[tuple[DirectNode, str]]:
     """Our eye and the full name of the node in `options`. Raises NodeNotFound."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
     node = absolute(options.node_name)
-    with Eye.asked_by(options) as eye:
+    with DirectNode.asked_by(options, speaks=True) as direct_node:
 
         def running() -> list[str]:
-            return eye.nodes(hidden=options.include_hidden_nodes)
+            return direct_node.nodes(hidden=options.include_hidden_nodes)
 
-        eye.settle()
-        if not eye.until(lambda: node in running(), getattr(options, "timeout", 0.0)):
+        direct_node.settle()
+        if not direct_node.until(lambda: node in running(), getattr(options, "timeout", 0.0)):
             raise NodeNotFound(options.node_name, running(), "Node not found:")
-        yield eye, node
+        yield direct_node, node
 
 
 def list_parameters(options: argparse.Namespace) -> int:
@@ -131,18 +131,18 @@ def list_parameters(options: argparse.Namespace) -> int:
     if options.filter is not None:
         checked_pattern(options.filter)
     if options.node_name:
-        with _seen(options) as (eye, node):
-            print("".join(_name_lines(eye, node, options)), end="")
+        with _seen(options) as (direct_node, node):
+            print("".join(_name_lines(direct_node, node, options)), end="")
         return OK
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
     from ros2_on_pip.parameters import SERVICE
 
-    with Eye.asked_by(options) as eye:
-        services = eye.settle().services()
-        nodes = sorted(set(eye.nodes(hidden=options.include_hidden_nodes)))
+    with DirectNode.asked_by(options, speaks=True) as direct_node:
+        services = direct_node.settle().services()
+        nodes = sorted(set(direct_node.nodes(hidden=options.include_hidden_nodes)))
         for node in nodes:
             if f"{node}/{SERVICE}" in services:
-                _print_block(eye, node, options)
+                _print_block(direct_node, node, options)
     return OK
 
 
@@ -154,24 +154,24 @@ def checked_pattern(text: str) -> None:
         raise BadPattern(text, fault) from None
 
 
-def _print_block(eye: Eye, node: str, options: argparse.Namespace) -> None:
+def _print_block(direct_node: DirectNode, node: str, options: argparse.Namespace) -> None:
     """One node of many: that it does not answer is said, and the next one comes."""
     try:
-        lines = _name_lines(eye, node, options)
-    except Problem as problem:
+        lines = _name_lines(direct_node, node, options)
+    except CommandProblem as problem:
         print(problem, file=sys.stderr)
         return
     if lines:
         print("".join([f"{node}:\n", *lines]), end="")
 
 
-def _name_lines(eye: Eye, node: str, options: argparse.Namespace) -> list[str]:
+def _name_lines(direct_node: DirectNode, node: str, options: argparse.Namespace) -> list[str]:
     from ros2_on_pip.parameters import descriptors_of, names_of, word_of
 
     pattern = options.filter or ""
-    names = [n for n in names_of(eye, node, options.param_prefixes) if re.match(pattern, n)]
+    names = [n for n in names_of(direct_node, node, options.param_prefixes) if re.match(pattern, n)]
     types = (
-        {d.name: f" (type: {word_of(d.type)})" for d in descriptors_of(eye, node, names)}
+        {d.name: f" (type: {word_of(d.type)})" for d in descriptors_of(direct_node, node, names)}
         if options.param_type
         else {}
     )
@@ -182,23 +182,23 @@ def show_value(options: argparse.Namespace) -> int:
     """`ros2 param get NODE NAME`."""
     from ros2_on_pip.parameters import WORDS, names_of, plain, values_of
 
-    with _seen(options) as (eye, node):
-        found = values_of(eye, node, [options.parameter_name])
+    with _seen(options) as (direct_node, node):
+        found = values_of(direct_node, node, [options.parameter_name])
         if found and found[0].type in WORDS:
             label = "" if options.hide_type else f"{WORDS[found[0].type][1]} "
             print(f"{label}{plain(found[0])}")
-        elif options.parameter_name in names_of(eye, node):
+        elif options.parameter_name in names_of(direct_node, node):
             print("Parameter not set", file=sys.stderr)
             return FAILED
         else:
-            raise _unknown(eye, node, options.parameter_name)
+            raise _unknown(direct_node, node, options.parameter_name)
     return OK
 
 
-def _unknown(eye: Eye, node: str, name: str) -> NoSuchParameter:
+def _unknown(direct_node: DirectNode, node: str, name: str) -> NoSuchParameter:
     from ros2_on_pip.parameters import names_of
 
-    return NoSuchParameter(name, names_of(eye, node))
+    return NoSuchParameter(name, names_of(direct_node, node))
 
 
 def set_value(options: argparse.Namespace) -> int:
@@ -206,10 +206,10 @@ def set_value(options: argparse.Namespace) -> int:
     from ros2_on_pip.parameters import set_on
 
     value = _typed(options.value)
-    with _seen(options) as (eye, node):
-        (result,) = set_on(eye, node, {options.parameter_name: value})
+    with _seen(options) as (direct_node, node):
+        (result,) = set_on(direct_node, node, {options.parameter_name: value})
         if not result.successful:
-            _explain(eye, node, options.parameter_name, result.reason)
+            _explain(direct_node, node, options.parameter_name, result.reason)
             return FAILED
     print("Set parameter successful" + (f": {result.reason}" if result.reason else ""))
     return OK
@@ -226,11 +226,11 @@ def _typed(text: str) -> Any:
     return value if isinstance(value, bool | int | float | list) else text
 
 
-def _explain(eye: Eye, node: str, name: str, reason: str) -> None:
+def _explain(direct_node: DirectNode, node: str, name: str, reason: str) -> None:
     """The node's own words, and a near miss where the name is wrong."""
     from ros2_on_pip.parameters import names_of
 
-    names = names_of(eye, node)
+    names = names_of(direct_node, node)
     if name not in names:  # rclpy's own words leave the name out here
         reason = f"the node has not declared '{name}'.{did_you_mean(name, names)}"
     print(f"Setting parameter failed: {reason}", file=sys.stderr)
@@ -240,10 +240,10 @@ def tell(options: argparse.Namespace) -> int:
     """`ros2 param describe NODE NAME...`."""
     from ros2_on_pip.parameters import descriptors_of
 
-    with _seen(options) as (eye, node):
-        for descriptor in descriptors_of(eye, node, options.parameter_names):
+    with _seen(options) as (direct_node, node):
+        for descriptor in descriptors_of(direct_node, node, options.parameter_names):
             if not descriptor.type:
-                raise _unknown(eye, node, descriptor.name)
+                raise _unknown(direct_node, node, descriptor.name)
             print("\n".join(description_lines(descriptor)))
     return OK
 
@@ -273,9 +273,9 @@ def show_all(options: argparse.Namespace) -> int:
     from ros2_on_pip.parameter_file import INSIDE
     from ros2_on_pip.parameters import names_of, nested, plain, values_of
 
-    with _seen(options) as (eye, node):
-        names = names_of(eye, node)
-        values = map(plain, values_of(eye, node, names)) if names else []
+    with _seen(options) as (direct_node, node):
+        names = names_of(direct_node, node)
+        values = map(plain, values_of(direct_node, node, names)) if names else []
         tree = nested(dict(zip(names, values, strict=False)))
     print(yaml.safe_dump({node: {INSIDE: tree}}, default_flow_style=False))
     return OK
@@ -288,8 +288,8 @@ def load_file(options: argparse.Namespace) -> int:
 
     node = absolute(options.node_name)
     values = values_for(options.parameter_file, node, wildcards=not options.no_use_wildcard)
-    with _seen(options) as (eye, node):
-        results = set_on(eye, node, values)
+    with _seen(options) as (direct_node, node):
+        results = set_on(direct_node, node, values)
     for name, result in zip(values, results, strict=True):
         reason = f": {result.reason}" if result.reason else ""
         done = "Set" if result.successful else "Setting"
@@ -303,10 +303,10 @@ def delete_parameter(options: argparse.Namespace) -> int:
     """`ros2 param delete NODE NAME`."""
     from ros2_on_pip.parameters import delete_on, names_of
 
-    with _seen(options) as (eye, node):
-        if options.parameter_name not in names_of(eye, node):
-            raise _unknown(eye, node, options.parameter_name)
-        result = delete_on(eye, node, options.parameter_name)
+    with _seen(options) as (direct_node, node):
+        if options.parameter_name not in names_of(direct_node, node):
+            raise _unknown(direct_node, node, options.parameter_name)
+        result = delete_on(direct_node, node, options.parameter_name)
     reason = f": {result.reason}" if result.reason else ""
     done = "Deleted parameter successfully" if result.successful else "Deleting parameter failed"
     print(f"{done}{reason}", file=sys.stdout if result.successful else sys.stderr)

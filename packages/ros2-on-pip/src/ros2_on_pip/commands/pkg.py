@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 from ros2_on_pip.shared_options import complete_packages
 from ros2_on_pip.words import OK, Verbs, add
 
 BUILD_TYPES = ("ament_python", "ament_cmake", "cmake")
 
 
-class NoTag(Problem):
+class NoTag(CommandProblem):
     """The package.xml does not say that."""
 
     def __init__(self, package: str, tag: str, there: list[str]) -> None:
@@ -23,7 +23,7 @@ class NoTag(Problem):
         )
 
 
-class NoManifest(Problem):
+class NoManifest(CommandProblem):
     """The package was installed without its package.xml, or it comes with roslings."""
 
     def __init__(self, package: str) -> None:

@@ -10,12 +10,12 @@ import signal
 import sys
 from typing import Any
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.shared_options import complete_packages
 from ros2_on_pip.words import add
 
 
-class CannotStart(Problem):
+class CannotRunExecutable(CommandProblem):
     """The system refused to start the executable."""
 
     def __init__(self, command: list[str], error: OSError) -> None:
@@ -68,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def become(command: list[str], environment: dict[str, str]) -> None:
-    """Replace this process by `command`, which Ctrl-C can end again. Raises CannotStart."""
+    """Replace this process by `command`, which Ctrl-C can end again. Raises CannotRunExecutable."""
     sys.stdout.flush()
     # A shell that starts us in the background makes us deaf to Ctrl-C; the node must hear it.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -76,4 +76,4 @@ def become(command: list[str], environment: dict[str, str]) -> None:
     try:
         os.execve(program, command, environment)
     except OSError as error:
-        raise CannotStart(command, error) from error
+        raise CannotRunExecutable(command, error) from error

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ros2_on_pip.habits import full_topic, full_type
-from ros2_on_pip.problem import Problem, ServiceNotThere, did_you_mean
+from ros2_on_pip.problem import CommandProblem, ServiceNotThere, did_you_mean
 from ros2_on_pip.qos import add_qos_options
 from ros2_on_pip.shared_options import (
     DIRECT,
@@ -28,12 +28,12 @@ from ros2_on_pip.shared_options import (
 from ros2_on_pip.words import FAILED, OK, Verbs, add, rate
 
 if TYPE_CHECKING:
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
 MATCHED_WITHIN_S = 1.0
 
 
-class OtherType(Problem):
+class OtherServiceType(CommandProblem):
     """The service is there, with another type than the one typed."""
 
     def __init__(self, service: str, typed: str, right: str) -> None:
@@ -122,10 +122,10 @@ def _service_name(parser: argparse.ArgumentParser) -> None:
 
 def list_services(options: argparse.Namespace) -> int:
     """`ros2 service list`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye.asked_by(options) as eye:
-        services = eye.settle().services(hidden=options.include_hidden_services)
+    with DirectNode.asked_by(options) as direct_node:
+        services = direct_node.settle().services(hidden=options.include_hidden_services)
     if options.count:
         print(len(services))
         return OK
@@ -136,10 +136,10 @@ def list_services(options: argparse.Namespace) -> int:
 
 def show_type(options: argparse.Namespace) -> int:
     """`ros2 service type SERVICE`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye.asked_by(options) as eye:
-        services = eye.settle().services()
+    with DirectNode.asked_by(options) as direct_node:
+        services = direct_node.settle().services()
     types = services.get(full_topic(options.service_name))
     if not types:
         near = did_you_mean(options.service_name, services)
@@ -151,12 +151,12 @@ def show_type(options: argparse.Namespace) -> int:
 
 def find_services(options: argparse.Namespace) -> int:
     """`ros2 service find TYPE`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
     from ros2_on_pip.interfaces import full_name
 
     wanted = full_type(options.service_type, full_name(options.service_type, "srv"))
-    with Eye.asked_by(options) as eye:
-        services = eye.settle().services(hidden=options.include_hidden_services)
+    with DirectNode.asked_by(options) as direct_node:
+        services = direct_node.settle().services(hidden=options.include_hidden_services)
     names = [name for name, types in services.items() if wanted in types]
     if options.count or names:
         print(len(names) if options.count else "\n".join(names))
@@ -165,14 +165,17 @@ def find_services(options: argparse.Namespace) -> int:
 
 def show_info(options: argparse.Namespace) -> int:
     """`ros2 service info SERVICE`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
     name = full_topic(options.service_name)
-    with Eye.asked_by(options) as eye:
-        services = eye.settle().services()
+    with DirectNode.asked_by(options) as direct_node:
+        services = direct_node.settle().services()
         if name not in services:
             raise ServiceNotThere(name, services)
-        clients, servers = eye.node.count_clients(name), eye.node.count_services(name)
+        clients, servers = (
+            direct_node.graph.count_clients(name),
+            direct_node.graph.count_services(name),
+        )
     types = services[name]
     print(f"Type: {types[0] if len(types) == 1 else types}")
     print(f"Clients count: {clients}\nServices count: {servers}")
@@ -188,7 +191,7 @@ def echo(options: argparse.Namespace) -> int:
 
 def call(options: argparse.Namespace) -> int:
     """`ros2 service call SERVICE TYPE [VALUES]`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
     from ros2_on_pip.interfaces import class_of, full_name
     from ros2_on_pip.names import checked_topic
     from ros2_on_pip.yaml_in import filled
@@ -198,33 +201,33 @@ def call(options: argparse.Namespace) -> int:
     cls = class_of(type_name, "srv")
     request = cls.Request()
     filled(request, values_in(options, options.values))
-    with Eye.asked_by(options) as eye:
-        services = eye.settle().services()  # before our own client puts its type there
+    with DirectNode.asked_by(options, speaks=True) as direct_node:
+        services = direct_node.settle().services()  # before our own client puts its type there
         if type_name not in services.get(service, [type_name]):
-            raise OtherType(service, type_name, services[service][0])
-        client = eye.node.create_client(cls, service)
-        _await(eye, client, service, services)
-        _repeat(eye, client, request, options.rate)
+            raise OtherServiceType(service, type_name, services[service][0])
+        client = direct_node.node.create_client(cls, service)
+        _await(direct_node, client, service, services)
+        _repeat(direct_node, client, request, options.rate)
     return OK
 
 
-def _await(eye: Eye, client: Any, service: str, there: Iterable[str]) -> None:
+def _await(direct_node: DirectNode, client: Any, service: str, there: Iterable[str]) -> None:
     """Wait for the service; a near miss among those that are `there` is said at once."""
-    if eye.until(client.service_is_ready, MATCHED_WITHIN_S if service in there else 0):
+    if direct_node.until(client.service_is_ready, MATCHED_WITHIN_S if service in there else 0):
         return
     print("waiting for service to become available...")
     if service not in there and (near := did_you_mean(service, there)):
         print(f"No node offers '{service}' yet.{near}", file=sys.stderr)
-    eye.until(client.service_is_ready)
+    direct_node.until(client.service_is_ready)
 
 
-def _repeat(eye: Eye, client: Any, request: Any, per_s: float | None) -> None:
+def _repeat(direct_node: DirectNode, client: Any, request: Any, per_s: float | None) -> None:
     from ros2_on_pip.calling import answer_of
 
     while True:
         print(f"requester: making request: {request!r}\n")
-        answer = answer_of(eye, client.srv_name, client.call_async(request), None)
+        answer = answer_of(direct_node, client.srv_name, client.call_async(request), None)
         print(f"response:\n{answer!r}\n")
         if per_s is None:
             return
-        eye.until(lambda: False, 1 / per_s)
+        direct_node.until(lambda: False, 1 / per_s)

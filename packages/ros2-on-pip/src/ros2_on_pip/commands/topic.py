@@ -6,7 +6,7 @@ import argparse
 import sys
 
 from ros2_on_pip.habits import full_topic, full_type
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 from ros2_on_pip.qos import add_qos_options
 from ros2_on_pip.shared_options import (
     also_hidden,
@@ -42,7 +42,7 @@ OF_EVERY_NODE = {
 """The full tool lists them always, for its own node has them too."""
 
 
-class TopicNotFound(Problem):
+class TopicNotFound(CommandProblem):
     """No node has the topic."""
 
     def __init__(self, topic: str, there: list[str]) -> None:
@@ -236,25 +236,25 @@ def _later(home: str, function: str) -> Run:
 
 def list_topics(options: argparse.Namespace) -> int:
     """`ros2 topic list`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye.asked_by(options) as eye:
-        found = eye.settle().topics(hidden=options.include_hidden_topics)
+    with DirectNode.asked_by(options) as direct_node:
+        found = direct_node.settle().topics(hidden=options.include_hidden_topics)
         topics = dict(sorted({**OF_EVERY_NODE, **found}.items()))
         if options.count:
             print(len(topics))
         elif options.verbose:
-            _print_verbose(eye, topics)
+            _print_verbose(direct_node, topics)
         else:
             for name, types in topics.items():
                 print(f"{name} [{', '.join(types)}]" if options.show_types else name)
     return OK
 
 
-def _print_verbose(eye: object, topics: dict[str, list[str]]) -> None:
+def _print_verbose(direct_node: object, topics: dict[str, list[str]]) -> None:
     for title, word, infos in (
-        ("Published topics", "publisher", eye.publishers),  # type: ignore[attr-defined]
-        ("Subscribed topics", "subscriber", eye.ears),  # type: ignore[attr-defined]
+        ("Published topics", "publisher", direct_node.publishers),  # type: ignore[attr-defined]
+        ("Subscribed topics", "subscriber", direct_node.subscriptions),  # type: ignore[attr-defined]
     ):
         print(f"{title}:")
         for name, types in topics.items():
@@ -266,17 +266,20 @@ def _print_verbose(eye: object, topics: dict[str, list[str]]) -> None:
 
 def show_info(options: argparse.Namespace) -> int:
     """`ros2 topic info TOPIC`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
     topic = full_topic(options.topic_name)
-    with Eye.asked_by(options) as eye:
-        types = eye.settle().topics().get(topic)
+    with DirectNode.asked_by(options) as direct_node:
+        types = direct_node.settle().topics().get(topic)
         if types is None:
-            raise TopicNotFound(options.topic_name, list(eye.topics(hidden=False)))
-        voices, ears = eye.publishers(topic), eye.ears(topic)
+            raise TopicNotFound(options.topic_name, list(direct_node.topics(hidden=False)))
+        publishers, subscriptions = direct_node.publishers(topic), direct_node.subscriptions(topic)
         space = "\n" if options.verbose else ""
         print(f"Type: {types[0] if len(types) == 1 else types}{space}")
-        for title, infos in (("Publisher count", voices), ("Subscription count", ears)):
+        for title, infos in (
+            ("Publisher count", publishers),
+            ("Subscription count", subscriptions),
+        ):
             print(f"{title}: {len(infos)}{space}")
             for info in infos if options.verbose else ():
                 print(f"{info}\n")
@@ -285,10 +288,10 @@ def show_info(options: argparse.Namespace) -> int:
 
 def show_type(options: argparse.Namespace) -> int:
     """`ros2 topic type TOPIC`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
 
-    with Eye.asked_by(options) as eye:
-        topics = eye.settle().topics()
+    with DirectNode.asked_by(options) as direct_node:
+        topics = direct_node.settle().topics()
     types = topics.get(full_topic(options.topic_name))
     if not types:
         near = did_you_mean(options.topic_name, topics)
@@ -300,12 +303,12 @@ def show_type(options: argparse.Namespace) -> int:
 
 def find_topics(options: argparse.Namespace) -> int:
     """`ros2 topic find TYPE`."""
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
     from ros2_on_pip.interfaces import full_name
 
     wanted = full_type(options.topic_type, full_name(options.topic_type, "msg"))
-    with Eye.asked_by(options) as eye:
-        topics = eye.settle().topics(hidden=options.include_hidden_topics)
+    with DirectNode.asked_by(options) as direct_node:
+        topics = direct_node.settle().topics(hidden=options.include_hidden_topics)
     names = [name for name, types in topics.items() if wanted in types]
     print("\n".join(names) if not options.count else len(names), end="\n" if names else "")
     return OK

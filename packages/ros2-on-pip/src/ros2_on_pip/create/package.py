@@ -13,13 +13,13 @@ from pathlib import Path
 
 from ros2_on_pip.create.texts import PackageRequest, files_of
 from ros2_on_pip.packages import packages
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 from ros2_on_pip.words import OK
 
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
 
 
-class OnlyPython(Problem):
+class OnlyPython(CommandProblem):
     """C++ packages cannot be built on the wheels."""
 
     def __init__(self, build_type: str) -> None:
@@ -29,14 +29,14 @@ class OnlyPython(Problem):
         )
 
 
-class BadPackageName(Problem):
+class BadPackageName(CommandProblem):
     """The name cannot be the name of a package."""
 
     def __init__(self, name: str, why: str) -> None:
         super().__init__(f"'{name}' cannot be the name of a package: {why}.")
 
 
-class BadNodeName(Problem):
+class BadNodeName(CommandProblem):
     """The name cannot be the name of a Python file and of an executable."""
 
     def __init__(self, name: str) -> None:
@@ -46,7 +46,7 @@ class BadNodeName(Problem):
         )
 
 
-class AlreadyThere(Problem):
+class PackageAlreadyThere(CommandProblem):
     """There is something of that name; nothing is overwritten."""
 
     def __init__(self, place: Path) -> None:
@@ -56,7 +56,7 @@ class AlreadyThere(Problem):
         )
 
 
-class CannotWrite(Problem):
+class FolderNotWritable(CommandProblem):
     """The folder cannot be written to."""
 
     def __init__(self, fault: OSError) -> None:
@@ -77,12 +77,12 @@ def create_package(options: argparse.Namespace) -> int:
     request = _request(options)
     root = Path(options.destination_directory) / request.package
     if root.exists():
-        raise AlreadyThere(root)
+        raise PackageAlreadyThere(root)
     print("\n".join(_summary(request, options)))
     try:
         _write(root, request)
     except OSError as fault:
-        raise CannotWrite(fault) from fault
+        raise FolderNotWritable(fault) from fault
     _warn(request)
     return OK
 

@@ -13,7 +13,7 @@ class Listener(Node):
 
     def __init__(self) -> None:
         super().__init__("listener")
-        self.ear = self.create_subscription(String, "chatter", self.hear, 10)
+        self.subscription = self.create_subscription(String, "chatter", self.hear, 10)
 
     def hear(self, message: String) -> None:
         """Log one text."""
@@ -23,8 +23,8 @@ class Listener(Node):
 def main() -> None:
     """Run the node until Ctrl-C. What is wrong before that, a domain that is no number, is told.
 
-    No try_shutdown(): rclpy's signal handler ends the context in a thread of its own, and may come
-    between the two steps of that call, or while the executor works with the context.
+    There is no try_shutdown(): rclpy's signal handler ends the context in a thread of its own. It
+    may come between the two steps of that call, or while the executor works with the context.
     """
     try:
         rclpy.init()

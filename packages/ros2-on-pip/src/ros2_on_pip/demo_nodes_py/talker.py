@@ -14,7 +14,7 @@ class Talker(Node):
     def __init__(self) -> None:
         super().__init__("talker")
         self.count = 0
-        self.voice = self.create_publisher(String, "chatter", 10)
+        self.publisher = self.create_publisher(String, "chatter", 10)
         self.timer = self.create_timer(1.0, self.say_hello)
 
     def say_hello(self) -> None:
@@ -22,14 +22,14 @@ class Talker(Node):
         message = String(data=f"Hello World: {self.count}")
         self.count += 1
         self.get_logger().info(f'Publishing: "{message.data}"')
-        self.voice.publish(message)
+        self.publisher.publish(message)
 
 
 def main() -> None:
     """Run the node until Ctrl-C. What is wrong before that, a domain that is no number, is told.
 
-    No try_shutdown(): rclpy's signal handler ends the context in a thread of its own, and may come
-    between the two steps of that call, or while the executor works with the context.
+    There is no try_shutdown(): rclpy's signal handler ends the context in a thread of its own. It
+    may come between the two steps of that call, or while the executor works with the context.
     """
     try:
         rclpy.init()

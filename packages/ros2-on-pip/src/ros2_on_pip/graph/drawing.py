@@ -6,12 +6,13 @@ import unicodedata
 from collections.abc import Iterator, Mapping
 
 from ros2_on_pip.graph.labels import Label, edges_of, labels_of
-from ros2_on_pip.graph.layout import Box
-from ros2_on_pip.graph.line import WARNING, Line
-from ros2_on_pip.graph.plan import Arrow, Plan, plan_down, plan_of
+from ros2_on_pip.graph.layout import GraphBox
+from ros2_on_pip.graph.line import WARNING, TextLine
+from ros2_on_pip.graph.plan import Arrow, GraphLayout, plan_down, plan_of
 from ros2_on_pip.graph.seen import Graph
 from ros2_on_pip.graph.shape import GraphShape, shape_of
 from ros2_on_pip.graph.words import sentences_of
+from ros2_on_pip.language import said
 from ros2_on_pip.markup import Markup, joined, tag
 
 MARGIN = 8.0
@@ -34,7 +35,7 @@ STYLE = """
 class MonospacedRuler:
     """Widths of lines of text where every letter is equally wide, and East Asian ones twice."""
 
-    def width(self, line: Line) -> float:
+    def width(self, line: TextLine) -> float:
         """Points that the line takes."""
         return sum(map(_cells, line.text)) * CELL * line.size
 
@@ -73,7 +74,9 @@ def graph_pictures(graph: Graph) -> Markup:
     return joined(_picture(across, labels, words, "wide"), _picture(down, labels, words, "narrow"))
 
 
-def _picture(plan: Plan, labels: Mapping[str, Label], words: str, screen: str | None) -> Markup:
+def _picture(
+    plan: GraphLayout, labels: Mapping[str, Label], words: str, screen: str | None
+) -> Markup:
     drawing = _drawing(plan, labels, words)
     return tag(
         "div",
@@ -81,11 +84,11 @@ def _picture(plan: Plan, labels: Mapping[str, Label], words: str, screen: str | 
         class_=" ".join(filter(None, ("scroll", screen))),
         tabindex="0",
         role="group",
-        aria_label="the graph, to scroll",
+        aria_label=said("graph.scroll", "the graph, to scroll"),
     )
 
 
-def _drawing(plan: Plan, labels: Mapping[str, Label], words: str) -> Markup:
+def _drawing(plan: GraphLayout, labels: Mapping[str, Label], words: str) -> Markup:
     width, height = plan.width + 2 * MARGIN, plan.height + 2 * MARGIN
     return tag(
         "svg",
@@ -99,7 +102,7 @@ def _drawing(plan: Plan, labels: Mapping[str, Label], words: str) -> Markup:
     )
 
 
-def _parts(plan: Plan, labels: Mapping[str, Label]) -> Iterator[Markup]:
+def _parts(plan: GraphLayout, labels: Mapping[str, Label]) -> Iterator[Markup]:
     for arrow in plan.arrows:
         yield from _arrow(arrow)
     for key, box in plan.boxes.items():
@@ -118,7 +121,7 @@ def _arrow(arrow: Arrow) -> Iterator[Markup]:
     yield tag("path", d=f"M{head}z", class_="head")
 
 
-def _box(box: Box, label: Label) -> Iterator[Markup]:
+def _box(box: GraphBox, label: Label) -> Iterator[Markup]:
     if not label.round:
         yield tag(
             "rect",
@@ -135,7 +138,7 @@ def _box(box: Box, label: Label) -> Iterator[Markup]:
     yield _ellipse(box, 0.0, "node doubled" if label.doubled else "node")
 
 
-def _ellipse(box: Box, shift: float, kind: str) -> Markup:
+def _ellipse(box: GraphBox, shift: float, kind: str) -> Markup:
     return tag(
         "ellipse",
         cx=box.x + shift,
@@ -146,7 +149,7 @@ def _ellipse(box: Box, shift: float, kind: str) -> Markup:
     )
 
 
-def _lines(box: Box, label: Label) -> Iterator[Markup]:
+def _lines(box: GraphBox, label: Label) -> Iterator[Markup]:
     top = box.y - label.height / 2
     for line in label.lines:
         yield tag(
@@ -161,6 +164,6 @@ def _lines(box: Box, label: Label) -> Iterator[Markup]:
         top += line.height
 
 
-def _kind(line: Line) -> str | None:
+def _kind(line: TextLine) -> str | None:
     kinds = ["warn"] * (line.colour == WARNING) + ["bold"] * line.bold
     return " ".join(kinds) or None

@@ -2,9 +2,9 @@
 
 Who wants it from top to bottom swaps widths and heights before, and x and y afterwards.
 
-The layered way of Sugiyama, Tagawa and Toda (1981): break the cycles, give each box the column
-that its longest path asks for, lead long arrows through free rows, order each column by the
-barycentre of its neighbours, then move boxes to the height of their neighbours.
+This is the layered way of Sugiyama, Tagawa and Toda (1981). Break the cycles. Give each box the
+column that its longest path asks for. Lead long arrows through free rows. Order each column by the
+barycentre of its neighbours. Then move boxes to the height of their neighbours.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ SWEEPS = 12
 
 
 @dataclass(frozen=True)
-class Box:
+class GraphBox:
     """One box, by its centre; `column` is 0 for a node (even columns), 1 for a topic."""
 
     width: float
@@ -44,8 +44,8 @@ class Box:
 class Route:
     """An arrow: its two boxes, and the points it goes through from one border to the other.
 
-    Between an odd point and the next even one (counted from 1) it goes straight; from an even
-    one to the next odd one it may bend.
+    Points are counted from 1. Between an odd point and the next even one it goes straight. From an
+    even one to the next odd one it may bend.
     """
 
     source: str
@@ -61,7 +61,7 @@ class Route:
 class Layout:
     """Where everything stands; y grows downwards and all lies within width and height."""
 
-    boxes: dict[str, Box]
+    boxes: dict[str, GraphBox]
     routes: list[Route]
     width: float
     height: float
@@ -76,7 +76,7 @@ class Layout:
         )
 
 
-def layout(boxes: Mapping[str, Box], edges: Iterable[Edge], aspect: float = 1.4) -> Layout:
+def layout(boxes: Mapping[str, GraphBox], edges: Iterable[Edge], aspect: float = 1.4) -> Layout:
     """Places for `boxes` (name to size) and `edges` between them. No two boxes overlap.
 
     Parts that no edge connects are put together to about `aspect` (width by height).
@@ -89,7 +89,7 @@ def layout(boxes: Mapping[str, Box], edges: Iterable[Edge], aspect: float = 1.4)
 # Parts that no arrow connects
 
 
-def _connected(boxes: Mapping[str, Box], edges: Sequence[Edge]) -> list[list[str]]:
+def _connected(boxes: Mapping[str, GraphBox], edges: Sequence[Edge]) -> list[list[str]]:
     near = _both_ways(edges)
     seen: set[str] = set()
     parts = []
@@ -144,7 +144,7 @@ def _joined(whole: Layout, part: Layout) -> Layout:
 # One part
 
 
-def _part(names: Sequence[str], boxes: Mapping[str, Box], edges: Sequence[Edge]) -> Layout:
+def _part(names: Sequence[str], boxes: Mapping[str, GraphBox], edges: Sequence[Edge]) -> Layout:
     inside = set(names)
     links = [edge for edge in edges if edge[0] in inside]
     rightwards = _without_cycles(names, links)
@@ -190,7 +190,7 @@ def _closing(starts: Sequence[str], after: Neighbours) -> set[Edge]:
 
 
 def _columns_of(
-    names: Sequence[str], boxes: Mapping[str, Box], edges: Sequence[Edge]
+    names: Sequence[str], boxes: Mapping[str, GraphBox], edges: Sequence[Edge]
 ) -> dict[str, int]:
     """Box to column: one more than the furthest box before it; nodes even, topics odd."""
     before: dict[str, list[str]] = defaultdict(list)
@@ -236,7 +236,7 @@ def _in_columns(column: Mapping[str, int], chains: Sequence[Sequence[str]]) -> C
     return [found[at] for at in sorted(found)]
 
 
-def _with_lanes(boxes: dict[str, Box], chains: Sequence[Sequence[str]]) -> dict[str, Box]:
+def _with_lanes(boxes: dict[str, GraphBox], chains: Sequence[Sequence[str]]) -> dict[str, GraphBox]:
     """Boxes as high as their arrows need, and the lanes."""
     leaving, coming = _degrees(chains)
     sized = {}
@@ -244,7 +244,7 @@ def _with_lanes(boxes: dict[str, Box], chains: Sequence[Sequence[str]]) -> dict[
         ports = max(leaving.get(name, 0), coming.get(name, 0))
         sized[name] = replace(box, height=max(box.height, (ports + 1) * PORT_GAP))
     for chain in chains:
-        sized.update(dict.fromkeys(chain[1:-1], Box(0.0, LANE_HEIGHT)))
+        sized.update(dict.fromkeys(chain[1:-1], GraphBox(0.0, LANE_HEIGHT)))
     return sized
 
 
@@ -329,8 +329,8 @@ def _crossings_between(column: list[str], place: Mapping[str, int], right: Neigh
 
 
 def _at_y(
-    boxes: dict[str, Box], columns: Columns, chains: Sequence[Sequence[str]]
-) -> dict[str, Box]:
+    boxes: dict[str, GraphBox], columns: Columns, chains: Sequence[Sequence[str]]
+) -> dict[str, GraphBox]:
     """Each box as close to the height of its neighbours as the order in its column allows."""
     left, right = _sides(chains)
     both = _both_ways(_steps(chains))
@@ -342,7 +342,7 @@ def _at_y(
 
 
 def _settle(
-    column: Sequence[str], near: Neighbours, boxes: Mapping[str, Box], y: dict[str, float]
+    column: Sequence[str], near: Neighbours, boxes: Mapping[str, GraphBox], y: dict[str, float]
 ) -> None:
     wished = [_mean([y[name] for name in near.get(own, ())] or [y[own]]) for own in column]
     offsets = _offsets([boxes[name] for name in column])
@@ -354,7 +354,7 @@ def _mean(values: Sequence[float]) -> float:
     return sum(values) / len(values)
 
 
-def _offsets(column: Sequence[Box]) -> list[float]:
+def _offsets(column: Sequence[GraphBox]) -> list[float]:
     """How far below the first box each one stands where they are as close as may be."""
     offsets = [0.0]
     for above, below in itertools.pairwise(column):
@@ -377,8 +377,8 @@ def _rising(values: Sequence[float]) -> list[float]:
 
 
 def _at_x(
-    boxes: dict[str, Box], columns: Columns, chains: Sequence[Sequence[str]]
-) -> dict[str, Box]:
+    boxes: dict[str, GraphBox], columns: Columns, chains: Sequence[Sequence[str]]
+) -> dict[str, GraphBox]:
     """Each box in the middle of its column; more arrows between two columns get more room."""
     _, right = _sides(chains)
     placed = {}
@@ -398,7 +398,7 @@ def _routes(
     edges: Sequence[Edge],
     rightwards: Sequence[Edge],
     chains: Sequence[Sequence[str]],
-    boxes: Mapping[str, Box],
+    boxes: Mapping[str, GraphBox],
     columns: Columns,
 ) -> list[Route]:
     widths = {
@@ -414,7 +414,7 @@ def _routes(
 
 
 def _ports(
-    chains: Sequence[Sequence[str]], boxes: Mapping[str, Box], *, ahead: bool
+    chains: Sequence[Sequence[str]], boxes: Mapping[str, GraphBox], *, ahead: bool
 ) -> list[float]:
     """For each chain the height at which it leaves its first box (or comes to its last)."""
     ends: dict[str, list[tuple[float, int]]] = defaultdict(list)
@@ -432,7 +432,7 @@ def _points(
     chain: Sequence[str],
     leaves_at: float,
     comes_at: float,
-    boxes: Mapping[str, Box],
+    boxes: Mapping[str, GraphBox],
     widths: Mapping[str, float],
 ) -> list[tuple[float, float]]:
     """From the first box's middle to the last one's, straight within a column."""
@@ -444,7 +444,7 @@ def _points(
     return [*points, (last.x - widths[chain[-1]] / 2, comes_at), (last.x, comes_at)]
 
 
-def _trimmed(boxes: dict[str, Box], routes: list[Route]) -> Layout:
+def _trimmed(boxes: dict[str, GraphBox], routes: list[Route]) -> Layout:
     """All moved so that the topmost edge is 0."""
     heights = [y for route in routes for _, y in route.points]
     top = min([*(box.y - box.height / 2 for box in boxes.values()), *heights])

@@ -9,7 +9,7 @@ INK, WARNING = "#111827", "#7f0000"
 
 
 @dataclass(frozen=True)
-class Line:
+class TextLine:
     """One line of text; `size` in points."""
 
     text: str

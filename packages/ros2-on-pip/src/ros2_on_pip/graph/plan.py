@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from ros2_on_pip.graph.layout import Box, Edge, Layout, Route, layout
+from ros2_on_pip.graph.layout import Edge, GraphBox, Layout, Route, layout
 
 ASPECT = 1.4  # width by height of what fits a screen or a page well
 WIDE = 900.0  # what is no wider than this is read from left to right
@@ -19,9 +19,9 @@ Point = tuple[float, float]
 class Arrow:
     """A line and its head.
 
-    The line starts at the first point and goes straight to the second one; after that each
-    four points are two controls and the end of a bend (a cubic Bezier curve), and the end of a
-    straight piece.
+    The line starts at the first point and goes straight to the second one. After that come four
+    points each time. They are two controls and the end of a bend (a cubic Bezier curve), and the
+    end of a straight piece.
     """
 
     line: tuple[Point, ...]
@@ -39,26 +39,26 @@ class Arrow:
 
 
 @dataclass(frozen=True)
-class Plan:
+class GraphLayout:
     """Boxes by name, arrows, and the size of it all; y grows downwards."""
 
-    boxes: dict[str, Box]
+    boxes: dict[str, GraphBox]
     arrows: list[Arrow]
     width: float
     height: float
 
-    def moved(self, x: float, y: float) -> Plan:
+    def moved(self, x: float, y: float) -> GraphLayout:
         """The same, shifted by `x` and `y`."""
         boxes = {name: replace(box, x=box.x + x, y=box.y + y) for name, box in self.boxes.items()}
         return replace(self, boxes=boxes, arrows=[arrow.moved(x, y) for arrow in self.arrows])
 
-    def turned(self) -> Plan:
+    def turned(self) -> GraphLayout:
         """The same with x and y swapped."""
         arrows = [arrow.turned() for arrow in self.arrows]
-        return Plan(_turned(self.boxes), arrows, self.height, self.width)
+        return GraphLayout(_turned(self.boxes), arrows, self.height, self.width)
 
 
-def plan_of(boxes: Mapping[str, Box], edges: Iterable[Edge]) -> Plan:
+def plan_of(boxes: Mapping[str, GraphBox], edges: Iterable[Edge]) -> GraphLayout:
     """From left to right; from top to bottom where that would be too wide to be read."""
     links = list(edges)
     across = _plan(layout(boxes, links, ASPECT))
@@ -68,24 +68,24 @@ def plan_of(boxes: Mapping[str, Box], edges: Iterable[Edge]) -> Plan:
     return min(across, down, key=lambda plan: max(plan.width / ASPECT, plan.height))
 
 
-def plan_down(boxes: Mapping[str, Box], edges: Iterable[Edge]) -> Plan:
+def plan_down(boxes: Mapping[str, GraphBox], edges: Iterable[Edge]) -> GraphLayout:
     """From top to bottom, for a sheet that is narrow."""
     return _plan(layout(_turned(boxes), edges, 1 / ASPECT)).turned()
 
 
-def _turned(boxes: Mapping[str, Box]) -> dict[str, Box]:
+def _turned(boxes: Mapping[str, GraphBox]) -> dict[str, GraphBox]:
     return {
         name: replace(box, width=box.height, height=box.width, x=box.y, y=box.x)
         for name, box in boxes.items()
     }
 
 
-def _plan(found: Layout) -> Plan:
+def _plan(found: Layout) -> GraphLayout:
     arrows = [_arrow(route, found.boxes) for route in found.routes]
-    return Plan(found.boxes, arrows, found.width, found.height)
+    return GraphLayout(found.boxes, arrows, found.width, found.height)
 
 
-def _arrow(route: Route, boxes: Mapping[str, Box]) -> Arrow:
+def _arrow(route: Route, boxes: Mapping[str, GraphBox]) -> Arrow:
     first, *between, last = route.points
     to_right = first[0] < last[0]
     start = _border(boxes[route.source], first[1], right=to_right)
@@ -95,7 +95,7 @@ def _arrow(route: Route, boxes: Mapping[str, Box]) -> Arrow:
     return Arrow(tuple(_line([start, *between, neck])), head)
 
 
-def _border(box: Box, y: float, *, right: bool) -> Point:
+def _border(box: GraphBox, y: float, *, right: bool) -> Point:
     """The point of the box's border at height `y`: a node is an ellipse, a topic a rectangle."""
     reach = box.width / 2
     if box.column == 0:

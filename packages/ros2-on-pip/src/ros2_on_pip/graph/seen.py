@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any, Protocol
 
-from ros2_on_pip.discovery import Eye
+from ros2_on_pip.discovery import DirectNode
 from ros2_on_pip.names import node_name
 from ros2_on_pip.qos import mismatches
 
 PUBLISHER, SUBSCRIPTION = "publisher", "subscription"
 
 
-class Endpoint(Protocol):
+class GraphEndpoint(Protocol):
     """One publisher or subscription."""
 
     @property
@@ -42,12 +42,12 @@ class Graph(Protocol):
         """Full names; a name stands there as often as it was seen."""
 
     @property
-    def endpoints(self) -> Sequence[Endpoint]:
+    def endpoints(self) -> Sequence[GraphEndpoint]:
         """Of all nodes."""
 
 
 @dataclass(frozen=True)
-class End:
+class EndpointNow:
     """A publisher or a subscription that is there now."""
 
     kind: str
@@ -63,24 +63,27 @@ class GraphNow:
     """The graph at this moment."""
 
     nodes: list[str]
-    endpoints: list[End]
+    endpoints: list[EndpointNow]
 
 
-def graph_seen_by(eye: Eye) -> GraphNow:
-    """The graph, without the node of `eye` and without those of other looks at the graph."""
-    topics = sorted(name for name, _ in eye.node.get_topic_names_and_types())
-    ends = (end for topic in topics for end in _ends(eye, topic))
+def graph_seen_by(direct_node: DirectNode) -> GraphNow:
+    """The graph, without `direct_node` and without those of other looks at the graph."""
+    topics = sorted(name for name, _ in direct_node.graph.get_topic_names_and_types())
+    ends = (end for topic in topics for end in _ends(direct_node, topic))
     return GraphNow(
-        nodes=[name for name in eye.nodes(hidden=True) if not _only_looks(name)],
+        nodes=[name for name in direct_node.nodes(hidden=True) if not _only_looks(name)],
         endpoints=[end for end in ends if not _only_looks(end.node)],
     )
 
 
-def _ends(eye: Eye, topic: str) -> Iterator[End]:
-    for kind, infos in ((PUBLISHER, eye.publishers(topic)), (SUBSCRIPTION, eye.ears(topic))):
+def _ends(direct_node: DirectNode, topic: str) -> Iterator[EndpointNow]:
+    for kind, infos in (
+        (PUBLISHER, direct_node.publishers(topic)),
+        (SUBSCRIPTION, direct_node.subscriptions(topic)),
+    ):
         for info in infos:
             node = node_name(info.node_name, info.node_namespace)
-            yield End(kind, node, topic, info.topic_type, info.qos_profile)
+            yield EndpointNow(kind, node, topic, info.topic_type, info.qos_profile)
 
 
 def _only_looks(node: str) -> bool:
@@ -90,14 +93,14 @@ def _only_looks(node: str) -> bool:
 
 def misfits(graph: GraphNow) -> list[str]:
     """A sentence for each publisher and subscription of one topic that do not fit together."""
-    by_topic: dict[str, list[End]] = {}
+    by_topic: dict[str, list[EndpointNow]] = {}
     for end in graph.endpoints:
         by_topic.setdefault(end.topic, []).append(end)
     found = (said for ends in by_topic.values() for said in _misfits_of(ends))
     return list(dict.fromkeys(found))
 
 
-def _misfits_of(ends: Sequence[End]) -> Iterator[str]:
+def _misfits_of(ends: Sequence[EndpointNow]) -> Iterator[str]:
     publishers = [end for end in ends if end.kind == PUBLISHER]
     subscriptions = [end for end in ends if end.kind == SUBSCRIPTION]
     for one, other in product(publishers, subscriptions):
@@ -105,7 +108,7 @@ def _misfits_of(ends: Sequence[End]) -> Iterator[str]:
             yield f"On {one.topic} no message goes from {one.node} to {other.node}: {why}."
 
 
-def _why(publisher: End, subscription: End) -> list[str]:
+def _why(publisher: EndpointNow, subscription: EndpointNow) -> list[str]:
     if publisher.type != subscription.type:
         return [f"it has the type {publisher.type}, and {subscription.type} is asked for"]
     return mismatches(subscription.qos, publisher.qos)

@@ -6,7 +6,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ros2_on_pip.graph.seen import Endpoint, Graph
+from ros2_on_pip.graph.seen import Graph, GraphEndpoint
 
 # Topics that rclpy gives every node, and their types (rcl's logging, ROS 2's parameters).
 INFRASTRUCTURE = {
@@ -66,7 +66,7 @@ def shape_of(graph: Graph, *, show_hidden: bool = False) -> GraphShape:
     )
 
 
-def _hides(end: Endpoint) -> bool:
+def _hides(end: GraphEndpoint) -> bool:
     return (
         _is_infrastructure(end.topic, end.type)
         or _is_hidden_name(end.topic)
@@ -85,8 +85,8 @@ def _is_hidden_name(name: str) -> bool:
     return "/_" in name
 
 
-def _topics(endpoints: Iterable[Endpoint]) -> tuple[TopicShape, ...]:
-    by_topic: dict[str, list[Endpoint]] = defaultdict(list)
+def _topics(endpoints: Iterable[GraphEndpoint]) -> tuple[TopicShape, ...]:
+    by_topic: dict[str, list[GraphEndpoint]] = defaultdict(list)
     for end in endpoints:
         by_topic[end.topic].append(end)
     return tuple(
@@ -100,5 +100,5 @@ def _topics(endpoints: Iterable[Endpoint]) -> tuple[TopicShape, ...]:
     )
 
 
-def _nodes_of(endpoints: Iterable[Endpoint], kind: str) -> tuple[str, ...]:
+def _nodes_of(endpoints: Iterable[GraphEndpoint], kind: str) -> tuple[str, ...]:
     return tuple(sorted({end.node for end in endpoints if end.kind == kind}))

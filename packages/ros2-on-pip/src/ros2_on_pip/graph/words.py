@@ -6,11 +6,12 @@ from collections.abc import Iterator, Sequence
 
 from ros2_on_pip.graph.seen import Graph
 from ros2_on_pip.graph.shape import GraphShape, NodeShape, TopicShape, shape_of
+from ros2_on_pip.language import Text, counted, said
 from ros2_on_pip.safe_text import filled, harmless, wrapped
 
 WIDTH = 80
-NOTHING = "Nothing runs: no node was seen."
-NEXT = "Start a node in another terminal, then look again."
+NOTHING = Text("graph.nothing", "Nothing runs: no node was seen.")
+NEXT = Text("graph.next", "Start a node in another terminal, then look again.")
 
 
 def graph_text(graph: Graph, *, show_hidden: bool = False) -> str:
@@ -20,7 +21,7 @@ def graph_text(graph: Graph, *, show_hidden: bool = False) -> str:
         return f"{NOTHING}\n{NEXT}"
     lines = [counts_of(shape), "", *_node_lines(shape), *_topic_lines(shape)]
     if shape.hidden:
-        lines += ["", *_listed("Not shown: ", shape.hidden)]
+        lines += ["", *_listed(said("graph.hidden", "Not shown: "), shape.hidden)]
     return "\n".join(lines)
 
 
@@ -32,44 +33,57 @@ def describe_graph(graph: Graph, *, show_hidden: bool = False) -> str:
 def sentences_of(shape: GraphShape) -> str:
     """What is left of a graph, in sentences."""
     if not shape.nodes:
-        return NOTHING
+        return str(NOTHING)
     return harmless(" ".join(_sentences(shape)))
 
 
 def counts_of(shape: GraphShape) -> str:
     """How many nodes and topics there are."""
+    return ", ".join(_numbers(shape))
+
+
+def _numbers(shape: GraphShape) -> tuple[str, str]:
     nodes = sum(node.count for node in shape.nodes)
-    return f"{_number(nodes, 'node')}, {_number(len(shape.topics), 'topic')}"
-
-
-def _number(count: int, what: str) -> str:
-    return f"{count} {what}" if count == 1 else f"{count} {what}s"
+    topics = len(shape.topics)
+    return (
+        counted("graph.nodes.count", nodes, one="{count} node", other="{count} nodes"),
+        counted("graph.topics.count", topics, one="{count} topic", other="{count} topics"),
+    )
 
 
 def _node_lines(shape: GraphShape) -> Iterator[str]:
-    yield "Nodes"
+    yield said("graph.nodes", "Nodes")
     for node in shape.nodes:
         yield from _indented(_node_words(node), 2)
 
 
 def _node_words(node: NodeShape) -> str:
-    again = f"   ({node.count} nodes of this name run)" if node.count > 1 else ""
-    return node.name + again
+    if node.count == 1:
+        return node.name
+    again = "({count} nodes of this name run)"
+    return f"{node.name}   {said('graph.again', again, count=node.count)}"
 
 
 def _topic_lines(shape: GraphShape) -> Iterator[str]:
     if shape.topics:
-        yield from ("", "Topics")
+        yield from ("", said("graph.topics", "Topics"))
     for topic in shape.topics:
         yield from _indented(f"{topic.name}   {types_of(topic)}", 2)
-        yield from _listed("    from  ", topic.publishers or ("nobody publishes here",))
-        yield from _listed("    to    ", topic.subscribers or ("nobody listens here",))
+        nobody = (said("graph.no_publisher", "nobody publishes here"),)
+        yield from _listed(f"    {said('graph.from', 'from  ')}", topic.publishers or nobody)
+        nobody = (said("graph.no_subscriber", "nobody listens here"),)
+        yield from _listed(f"    {said('graph.to', 'to    ')}", topic.subscribers or nobody)
 
 
 def types_of(topic: TopicShape) -> str:
     """The type of a topic, or that it has several."""
     if len(topic.types) > 1:
-        return f"{len(topic.types)} types that do not match: {', '.join(topic.types)}"
+        return said(
+            "graph.types",
+            "{count} types that do not match: {types}",
+            count=len(topic.types),
+            types=", ".join(topic.types),
+        )
     return topic.types[0]
 
 
@@ -83,28 +97,55 @@ def _indented(text: str, indent: int) -> list[str]:
 
 
 def _sentences(shape: GraphShape) -> Iterator[str]:
-    yield f"A ROS graph with {counts_of(shape).replace(', ', ' and ')}."
+    nodes, topics = _numbers(shape)
+    yield said("graph.with", "A ROS graph with {nodes} and {topics}.", nodes=nodes, topics=topics)
+    same = "{count} nodes run under the name {name}."
     for node in shape.nodes:
         if node.count > 1:
-            yield f"{node.count} nodes run under the name {node.name}."
+            yield said("graph.same", same, count=node.count, name=node.name)
     for topic in shape.topics:
         yield _topic_sentence(topic)
     for node in shape.alone:
-        yield f"{node.name} has no topic."
+        yield said("graph.alone", "{name} has no topic.", name=node.name)
 
 
 def _topic_sentence(topic: TopicShape) -> str:
     name = f"{topic.name} ({types_of(topic)})"
     if not topic.publishers:
-        return f"Nobody publishes on {name}; {_verb(topic.subscribers, 'subscribe')} to it."
-    said = f"{_verb(topic.publishers, 'publish')} on {name}"
+        nobody = "Nobody publishes on {topic}; {subscribe} to it."
+        subscribe = _subscribe(topic.subscribers)
+        return said("graph.nobody_publishes", nobody, topic=name, subscribe=subscribe)
+    publish = _publish(topic.publishers)
     if not topic.subscribers:
-        return f"{said}; nobody subscribes to it."
-    return f"{said}, and {_verb(topic.subscribers, 'subscribe')} to it."
+        unheard = "{publish} on {topic}; nobody subscribes to it."
+        return said("graph.nobody_subscribes", unheard, publish=publish, topic=name)
+    both = "{publish} on {topic}, and {subscribe} to it."
+    subscribe = _subscribe(topic.subscribers)
+    return said("graph.both", both, publish=publish, topic=name, subscribe=subscribe)
 
 
-def _verb(names: Sequence[str], verb: str) -> str:
-    ending = "es" if verb.endswith("sh") else "s"
+def _publish(names: Sequence[str]) -> str:
+    return counted(
+        "graph.publish",
+        len(names),
+        one="{names} publishes",
+        other="{names} publish",
+        names=_together(names),
+    )
+
+
+def _subscribe(names: Sequence[str]) -> str:
+    return counted(
+        "graph.subscribe",
+        len(names),
+        one="{names} subscribes",
+        other="{names} subscribe",
+        names=_together(names),
+    )
+
+
+def _together(names: Sequence[str]) -> str:
     if len(names) == 1:
-        return f"{names[0]} {verb}{ending}"
-    return f"{', '.join(names[:-1])} and {names[-1]} {verb}"
+        return names[0]
+    both = "{first} and {last}"
+    return said("graph.together", both, first=", ".join(names[:-1]), last=names[-1])

@@ -2,44 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+import re
+from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ros2_on_pip.launching import events
-from ros2_on_pip.launching.description import Action, Entity, checked
+from ros2_on_pip.launching.description import Action, Entity, checked_list
 from ros2_on_pip.launching.handlers import EventHandler
 from ros2_on_pip.launching.python_file import students_code
 from ros2_on_pip.launching.substitution import (
+    Parts,
     SomeSubstitutionsType,
+    Substitution,
     SubstitutionFailure,
     described,
+    pairs_of,
     parts_of,
     parts_or_none,
     performed,
 )
-from ros2_on_pip.launching.substitutions import truth
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.launching.typed import seconds_of, truth_of, typed
+from ros2_on_pip.launching.wrong_kind import Refused
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 
 if TYPE_CHECKING:
-    from ros2_on_pip.launching.context import LaunchContext
+    from ros2_on_pip.launching.context import Alarm, LaunchContext
 
 
-class MissingArgument(Problem):
+class MissingArgument(CommandProblem):
     """The file wants an argument that was not given."""
 
-    def __init__(self, name: str, description: str) -> None:
+    def __init__(self, name: str, description: str, around: bool = False) -> None:
+        """`around`: the file that includes this one has it, and does not hand it on."""
+        step = f"Add it to the command: {name}:=VALUE"
+        if around:
+            step = (
+                "It is set where the file is included, and must be handed on there:"
+                f" launch_arguments={{'{name}': LaunchConfiguration('{name}')}}.items()"
+            )
         super().__init__(
             f"Required launch argument '{name}' (description:"
-            f" '{description or 'no description given'}') was not provided."
-            f" Add it to the command: {name}:=VALUE"
+            f" '{description or 'no description given'}') was not provided. {step}"
         )
 
 
-class BadChoice(Problem):
+class BadChoice(CommandProblem):
     """An argument has a value that the file does not allow."""
 
-    def __init__(self, name: str, value: str, choices: list[str]) -> None:
-        near = did_you_mean(value, choices)
+    def __init__(self, name: str, value: str, choices: Collection[Any]) -> None:
+        near = did_you_mean(value, [str(one) for one in choices])
         super().__init__(
             f'Argument "{name}" provided value "{value}" is not valid.'
             f" Valid options are: {choices}.{near}"
@@ -55,14 +66,30 @@ class DeclareLaunchArgument(Action):
         *,
         default_value: SomeSubstitutionsType | None = None,
         description: str | None = None,
-        choices: Iterable[str] | None = None,
+        choices: Collection[str] | None = None,
         **others: Any,
     ) -> None:
+        """Raises Refused where `choices` is empty, or has no place for the default."""
         super().__init__(**others)
         self.name = name
         self.default_value = parts_or_none(default_value, f"default_value of '{name}'")
         self.description = description or ""
-        self.choices = None if choices is None else [str(one) for one in choices]
+        self.choices = choices
+        if choices is not None:
+            self._require_choice(default_value, choices)
+
+    def _require_choice(self, default: SomeSubstitutionsType, choices: Collection[str]) -> None:
+        """A default with a substitution in it is looked at when its value is known."""
+        if len(choices) == 0:
+            raise Refused(
+                f"choices of '{self.name}' is empty. Leave choices out: then every value is right"
+            )
+        if default is None or isinstance(default, Substitution | list) or default in choices:
+            return
+        raise Refused(
+            f"Provided default_value \"{default}\" of '{self.name}' is not in provided choices"
+            f' "{choices}".{did_you_mean(str(default), [str(one) for one in choices])}'
+        )
 
     def execute(self, context: LaunchContext) -> None:
         """Give it its default where nobody gave a value. Raises MissingArgument, BadChoice."""
@@ -121,17 +148,17 @@ class AppendEnvironmentVariable(SetLaunchConfiguration):
         **others: Any,
     ) -> None:
         super().__init__(name, value, **others)
-        self.prepend = parts_of(str(prepend) if isinstance(prepend, bool) else prepend, "prepend")
+        self.prepend = typed(prepend, bool, "prepend of AppendEnvironmentVariable")
         self.separator = parts_of(separator, "separator")
 
     def execute(self, context: LaunchContext) -> None:
         """Append it."""
         name, value = performed(context, self.name), performed(context, self.value)
-        old = context.environment.get(name)
-        first = truth(performed(context, self.prepend), "prepend")
-        pieces = [value, old] if first else [old, value]
+        first = truth_of(context, self.prepend, "prepend")
         between = performed(context, self.separator)
-        context.environment[name] = between.join(piece for piece in pieces if piece)
+        if (old := context.environment.get(name)) is not None:
+            value = between.join([value, old] if first else [old, value])
+        context.environment[name] = value
 
 
 class _Unset(Action):
@@ -175,12 +202,9 @@ class GroupAction(Action):
         **others: Any,
     ) -> None:
         super().__init__(**others)
-        self.actions = checked(actions, "GroupAction")
+        self.actions = checked_list(actions, "GroupAction")
         self.scoped, self.forwarding = scoped, forwarding
-        self.settings = [
-            (parts_of(name, "a name in launch_configurations"), parts_of(value, "a value in them"))
-            for name, value in (launch_configurations or {}).items()
-        ]
+        self.settings = pairs_of(launch_configurations, "launch_configurations")
 
     def execute(self, context: LaunchContext) -> Iterable[Entity]:
         """The actions, between a beginning and an end."""
@@ -225,33 +249,48 @@ class TimerAction(Action):
         *,
         period: float | SomeSubstitutionsType,
         actions: Iterable[Entity],
-        cancel_on_shutdown: bool = True,
+        cancel_on_shutdown: bool | SomeSubstitutionsType = True,
         **others: Any,
     ) -> None:
+        """`period` is in seconds, `5.0` and not `5`; a text, `'5'`, is read at once.
+
+        Raises WrongValueKind, and ValueError for a text that is no number.
+        """
         super().__init__(**others)
-        is_number = isinstance(period, int | float)
-        self.period = parts_of(str(period) if is_number else period, "period of TimerAction")
-        self.actions = checked(actions, "TimerAction")
-        self.cancel_on_shutdown = cancel_on_shutdown
+        self.period = _period(period)
+        self.actions = checked_list(actions, "TimerAction")
+        self.cancel_on_shutdown = typed(cancel_on_shutdown, bool, "cancel_on_shutdown")
         self._cancelled = False
+        self._cancel_alarm: Callable[[], None] = lambda: None
 
     def cancel(self) -> None:
-        """Do not carry them out."""
+        """Do not carry them out, and do not wait any longer."""
         self._cancelled = True
+        self._cancel_alarm()
 
     def execute(self, context: LaunchContext) -> None:
         """Begin to wait. Raises SubstitutionFailure."""
-        text = performed(context, self.period)
-        try:
-            period_s = float(text)
-        except ValueError:
-            raise SubstitutionFailure(f"period must be seconds, and not '{text}'") from None
-        always = not self.cancel_on_shutdown
-        context.after(period_s, lambda: self._carry_out(context), always=always)
+        self.ends_later = not self._cancelled
+        if self._cancelled:
+            return
+        period_s = seconds_of(context, self.period, "period")
+        always = not truth_of(context, self.cancel_on_shutdown, "cancel_on_shutdown")
+        known = dict(context.launch_configurations)
+        alarm = context.after(period_s, lambda: self._carry_out(context, known), always=always)
+        self._cancel_alarm = lambda: self._end_early(context, alarm)
 
-    def _carry_out(self, context: LaunchContext) -> None:
-        for action in () if self._cancelled else self.actions:
-            context.visit(action)
+    def _carry_out(self, context: LaunchContext, known: dict[str, Any]) -> None:
+        """With the configurations of when it began; what they set stays among them."""
+        self._cancel_alarm = lambda: None
+        with context.configured(known):
+            for action in self.actions:
+                context.visit(action)
+        self.tell_end(context)
+
+    def _end_early(self, context: LaunchContext, alarm: Alarm) -> None:
+        if not alarm.cancelled:
+            alarm.cancelled = True
+            self.tell_end(context)
 
     def inner(self) -> list[Entity]:
         """The actions."""
@@ -259,7 +298,18 @@ class TimerAction(Action):
 
     def details(self) -> str:
         """The seconds."""
-        return f"{described(self.period)} s"
+        known = self.period
+        return f"{known if isinstance(known, float) else described(known)} s"
+
+
+def _period(period: float | SomeSubstitutionsType) -> float | Parts:
+    """Jazzy reads a text at once, and takes a whole number for a mistake."""
+    if not isinstance(period, str):
+        return typed(period, float, "period of TimerAction, in seconds,")
+    try:
+        return float(period)
+    except ValueError:
+        raise ValueError(f"period of TimerAction must be seconds, and not '{period}'") from None
 
 
 class RegisterEventHandler(Action):
@@ -301,16 +351,13 @@ class EmitEvent(Action):
     def __init__(self, *, event: events.Event, **others: Any) -> None:
         super().__init__(**others)
         if not isinstance(event, events.Event):
-            raise TypeError(
+            raise Refused(
                 f"EmitEvent takes an event, such as Shutdown() of launch.events, not {event!r}"
             )
         self.event = event
 
     def execute(self, context: LaunchContext) -> None:
         """Tell the handlers."""
-        reason = getattr(self.event, "reason", "")
-        if not isinstance(reason, str):  # a substitution is filled in when it happens
-            self.event.reason = performed(context, parts_of(reason, "reason"))  # type: ignore[attr-defined]  # looked at above
         context.emit_event_sync(self.event)
 
     def details(self) -> str:
@@ -321,11 +368,10 @@ class EmitEvent(Action):
 class Shutdown(EmitEvent):
     """End the whole launch."""
 
-    def __init__(
-        self, *, reason: SomeSubstitutionsType = "reason not given", **others: Any
-    ) -> None:
-        super().__init__(event=events.Shutdown(), **others)
-        self.reason = parts_of(reason, "reason of Shutdown")
+    def __init__(self, *, reason: Any = "reason not given", **others: Any) -> None:
+        """`reason` is a text; Jazzy hands on anything else as it is, and fills nothing in."""
+        super().__init__(event=events.Shutdown(reason=reason), **others)
+        self.reason = reason
 
     def execute(self, context: LaunchContext) -> None:
         """End it after what is being done now; whose end asked for it is told."""
@@ -335,11 +381,11 @@ class Shutdown(EmitEvent):
                 f"[INFO] [launch]: process[{event.process_name}] was required: shutting down"
                 " launched system"
             )
-        context.emit_event_sync(events.Shutdown(reason=performed(context, self.reason)))
+        super().execute(context)
 
     def details(self) -> str:
         """The reason."""
-        return described(self.reason)
+        return repr(self.reason)
 
 
 class OpaqueFunction(Action):
@@ -356,6 +402,10 @@ class OpaqueFunction(Action):
         super().__init__(**others)
         if not callable(function):
             raise TypeError(f"function of OpaqueFunction must be a function, not {function!r}")
+        if kwargs is not None and not isinstance(kwargs, dict):
+            raise TypeError(f"kwargs of OpaqueFunction must be a dict of names, not {kwargs!r}")
+        if args is not None and not isinstance(args, Iterable):
+            raise TypeError(f"args of OpaqueFunction must be a list, not {args!r}: args=[{args!r}]")
         self.function, self.args, self.kwargs = function, list(args or ()), dict(kwargs or {})
 
     def execute(self, context: LaunchContext) -> list[Entity]:
@@ -363,7 +413,7 @@ class OpaqueFunction(Action):
         with students_code(self.place):
             made = self.function(context, *self.args, **self.kwargs)
         name = getattr(self.function, "__name__", "a function")
-        return checked(made or (), f"what {name}() returns")
+        return checked_list(() if made is None else made, f"what {name}() returns")
 
     def details(self) -> str:
         """The name of the function."""
@@ -378,7 +428,7 @@ class PushRosNamespace(Action):
         self.namespace = parts_of(namespace, "namespace of PushRosNamespace")
 
     def execute(self, context: LaunchContext) -> None:
-        """Go one step further in."""
+        """Go one step further in. Raises SubstitutionFailure."""
         outer = context.launch_configurations.get("ros_namespace", "")
         space = inside(outer, performed(context, self.namespace))
         context.launch_configurations["ros_namespace"] = space
@@ -398,9 +448,10 @@ class SetParameter(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Remember it for the nodes."""
-        from ros2_on_pip.launching.parameters import rule
+        from ros2_on_pip.launching.parameters import flat
 
-        _remember(context, "global_params", rule(context, self.name, self.value))
+        for name, value in flat(context, {tuple(self.name): self.value}):
+            _remember(context, "global_params", ("-p", f"{name}:={_as_typed(value)}"))
 
     def details(self) -> str:
         """Name and value."""
@@ -422,11 +473,27 @@ class SetParametersFromFile(Action):
         _remember(context, "global_params", ("--params-file", str(file)))
 
 
-class SetUseSimTime(SetParameter):
-    """Let every node that follows take its time from /clock."""
+class SetUseSimTime(Action):
+    """Let the launch itself take its time from /clock; the nodes that it starts hear nothing."""
 
     def __init__(self, value: bool | SomeSubstitutionsType, **others: Any) -> None:
-        super().__init__("use_sim_time", value, **others)
+        """Raises WrongValueKind."""
+        super().__init__(**others)
+        self.value = typed(value, bool, "value of SetUseSimTime")
+
+    def execute(self, context: LaunchContext) -> None:
+        """Say for whom it is: here, no part of the launch asks for the time of /clock.
+
+        Raises SubstitutionFailure where the value is false, as Jazzy's ends the launch then.
+        """
+        nodes = "SetParameter('use_sim_time', True) of launch_ros.actions"
+        if not truth_of(context, self.value, "value of SetUseSimTime"):
+            raise SubstitutionFailure(f"SetUseSimTime takes True alone. For nodes: {nodes}")
+        context.say(f"[INFO] [launch]: SetUseSimTime changes no node. For nodes: {nodes}")
+
+    def details(self) -> str:
+        """The value."""
+        return str(self.value) if isinstance(self.value, bool) else described(self.value)
 
 
 class SetRemap(Action):
@@ -448,11 +515,28 @@ class SetRemap(Action):
         return f"{described(self.src)}, {described(self.dst)}"
 
 
+def _as_typed(value: Any) -> str:
+    """As Jazzy hands it on: without quotes, so that the node reads the text 7 as a number.
+
+    A list is in round brackets, which the node reads as a text.
+    """
+    return str(tuple(value) if isinstance(value, list) else value)
+
+
 def _remember(context: LaunchContext, key: str, value: Any) -> None:
     known = context.launch_configurations.get(key, [])
     context.launch_configurations[key] = [*known, value]
 
 
+NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+
+
 def inside(outer: str, inner: str) -> str:
-    """A namespace inside another; an absolute one stays as it is."""
-    return inner if inner.startswith("/") else f"{outer.rstrip('/')}/{inner}".rstrip("/")
+    """A namespace inside another; an absolute one stays as it is. Raises SubstitutionFailure."""
+    space = inner if inner.startswith("/") else f"{outer.rstrip('/')}/{inner}".rstrip("/")
+    if not all(NAME.fullmatch(part) for part in space.split("/")[1:] if space != "/"):
+        raise SubstitutionFailure(
+            f"'{space}' is no namespace: letters, digits and underscores between slashes, and"
+            " no digit after a slash"
+        )
+    return space

@@ -7,16 +7,16 @@ import itertools
 import os
 import time
 from collections import deque
-from collections.abc import Callable, Iterator, MutableMapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, MutableMapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Protocol
+from typing import Any, ClassVar, Protocol
 
 from ros2_on_pip.launching.events import Event
 from ros2_on_pip.launching.planned import Planned
-from ros2_on_pip.launching.screen import Screen
+from ros2_on_pip.launching.screen import LaunchOutput
 from ros2_on_pip.launching.wrong_kind import WrongKind
 
 DescriptionIn = Callable[[Path, str], Any]
@@ -52,23 +52,48 @@ class Alarm:
     ends_with_shutdown: bool = field(default=True, compare=False)
 
 
-class LaunchContext:
-    """Launch configurations, event handlers, and what is still to be done."""
+@dataclass(frozen=True)
+class Around:
+    """What a launch has around it."""
 
-    def __init__(self, screen: Screen, folder: Path, description_in: DescriptionIn) -> None:
-        """`folder` is for the parameter files of nodes; `description_in` reads launch files."""
-        self.description_in = description_in
+    screen: LaunchOutput
+    folder: Path
+    """For the parameter files of nodes."""
+    description_in: DescriptionIn
+    """Reads launch files."""
+
+
+class LaunchContext:
+    """Launch configurations, event handlers, and what is still to be done.
+
+    Whoever tries substitutions out makes one by hand, `LaunchContext()`, as in Jazzy.
+    """
+
+    by_hand: ClassVar[Callable[[], Around]]
+    """Makes what is around a context that no launch has made; `provided.py` knows how."""
+
+    def __init__(
+        self,
+        *,
+        argv: Iterable[str] | None = None,
+        noninteractive: bool = False,
+        around: Around | None = None,
+    ) -> None:
+        """`around` is None for a context that is made by hand."""
+        self.argv = [] if argv is None else list(argv)
+        self.noninteractive = noninteractive
+        around = around or type(self).by_hand()
+        self.description_in, self.folder = around.description_in, around.folder
+        self._screen = around.screen
         self.launch_configurations: dict[str, Any] = {}
         self.locals = SimpleNamespace()
         self.is_shutdown = False
-        self.folder = folder
         self.file: Path | None = None
         self.declared: list[str] = []
         self.events: deque[Event] = deque()
         self.handlers: deque[Handler] = deque()
         self.planned: deque[Planned] = deque()
         self.alarms: list[Alarm] = []
-        self._screen = screen
         self._environment_at_start = dict(os.environ)
         self._numbers = itertools.count(1)
         self._names = itertools.count(1)
@@ -87,12 +112,11 @@ class LaunchContext:
         """One line for the screen and the log file."""
         self._screen.say(line)
 
-    def perform_substitution(self, substitution: Any) -> str:
-        """The text. Raises SubstitutionFailure, WrongKind."""
+    def perform_substitution(self, substitution: Any) -> Any:
+        """The text, as a rule. Raises SubstitutionFailure, WrongKind."""
         if not (perform := getattr(substitution, "perform", None)):
             raise WrongKind("what is filled in", substitution)
-        text: str = perform(self)
-        return text
+        return perform(self)
 
     def visit(self, entity: Visited) -> None:
         """Carry out `entity` and all that it brings along, in order. Raises BadLaunchFile."""
@@ -117,9 +141,22 @@ class LaunchContext:
             self.launch_configurations.update(settings)
             yield
         finally:
-            self.launch_configurations.clear()
-            self.launch_configurations.update(kept)
+            self._configure(kept)
             self._put_back(environment)
+
+    @contextmanager
+    def configured(self, configurations: dict[str, Any]) -> Iterator[None]:
+        """With these launch configurations and no others; what is set inside does not leave it."""
+        kept = dict(self.launch_configurations)
+        self._configure(configurations)
+        try:
+            yield
+        finally:
+            self._configure(kept)
+
+    def _configure(self, configurations: dict[str, Any]) -> None:
+        self.launch_configurations.clear()
+        self.launch_configurations.update(configurations)
 
     def _put_back(self, environment: dict[str, str]) -> None:
         os.environ.clear()
@@ -150,6 +187,10 @@ class LaunchContext:
         """Ask it no more."""
         if handler in self.handlers:
             self.handlers.remove(handler)
+
+    def would_handle_event(self, event: Event) -> bool:
+        """Whether a handler that is there now answers it."""
+        return any(handler.matches(event) for handler in self.handlers)
 
     def emit_event_sync(self, event: Event) -> None:
         """Tell every handler, after what is being done now."""

@@ -8,8 +8,10 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from ros2_on_pip.launching.conditions import Condition
+from ros2_on_pip.launching.events import ExecutionComplete
 from ros2_on_pip.launching.places import BadLaunchFile, calling_place
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.launching.wrong_kind import Refused
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 
 if TYPE_CHECKING:
     from ros2_on_pip.launching.context import LaunchContext
@@ -82,12 +84,12 @@ class Entity(ABC):
             yield from self._visit(context) or ()
         except BadLaunchFile:
             raise
-        except Problem as problem:
+        except CommandProblem as problem:
             raise self._placed(problem) from None
-        except (TypeError, ValueError) as fault:
+        except (TypeError, ValueError, Refused) as fault:
             raise BadLaunchFile(self.place, str(fault)) from None
 
-    def _placed(self, problem: Problem) -> BadLaunchFile:
+    def _placed(self, problem: CommandProblem) -> BadLaunchFile:
         placed = BadLaunchFile(self.place, str(problem))
         placed.exit_code = problem.exit_code
         return placed
@@ -115,7 +117,8 @@ class LaunchDescription(Entity):
         deprecated_reason: str | None = None,
     ) -> None:
         super().__init__()
-        self.entities = checked(initial_entities or (), "LaunchDescription")
+        given = () if initial_entities is None else initial_entities
+        self.entities = checked_list(given, "LaunchDescription")
         self.deprecated_reason = deprecated_reason
 
     def add_entity(self, entity: Entity) -> None:
@@ -131,11 +134,26 @@ class LaunchDescription(Entity):
         return self.entities
 
     def _visit(self, context: LaunchContext) -> Iterable[Entity]:
+        if self.deprecated_reason is not None:
+            file = f"launch file [{context.file}] is deprecated"
+            what = file if context.file else "deprecated launch description"
+            context.say(f"[WARNING] [root]: {what}: {self.deprecated_reason}")
         return self.entities
+
+    @property
+    def deprecated(self) -> bool:
+        """Whether there is a reason not to use it any more."""
+        return self.deprecated_reason is not None
 
 
 class Action(Entity):
     """Something that a launch does, where its condition holds."""
+
+    ends_later = False
+    """Whether it has not ended yet when `execute` has: then its class tells the end."""
+
+    end_is_heard = False
+    """Whether a handler for its end was there when it was carried out."""
 
     def __init__(self, *, condition: Condition | None = None, **unknown: Any) -> None:
         super().__init__()
@@ -150,7 +168,16 @@ class Action(Entity):
     def _visit(self, context: LaunchContext) -> Iterable[Entity] | None:
         if self.condition and not self.condition.evaluate(context):
             return None
-        return self.execute(context)
+        made = self.execute(context)
+        self.end_is_heard = context.would_handle_event(ExecutionComplete(action=self))
+        if not self.ends_later:
+            self.tell_end(context)
+        return made
+
+    def tell_end(self, context: LaunchContext) -> None:
+        """Let OnExecutionComplete know; a handler that came after it hears nothing."""
+        if self.end_is_heard:
+            context.emit_event_sync(ExecutionComplete(action=self))
 
     @abstractmethod
     def execute(self, context: LaunchContext) -> Iterable[Entity] | None:
@@ -164,6 +191,14 @@ class Action(Entity):
     def details(self) -> str:
         """What stands between its brackets for `--print`."""
         return ""
+
+
+def checked_list(entities: Iterable[Entity], where: str) -> list[Entity]:
+    """The entities as a list; one alone is none. Raises WrongEntity, TypeError."""
+    if isinstance(entities, Entity):
+        name = type(entities).__name__
+        raise TypeError(f"{where} takes a list of actions. Put [ and ] around it: [{name}(...)]")
+    return checked(entities, where)
 
 
 def checked(entities: Iterable[Entity] | Entity, where: str) -> list[Entity]:
@@ -181,3 +216,5 @@ def checked(entities: Iterable[Entity] | Entity, where: str) -> list[Entity]:
 
 class ProcessAction(Action):
     """One that starts a process: event handlers may be told which."""
+
+    ends_later = True

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 from ros2_on_pip.launching.planned import StartsProcess
 
@@ -17,7 +18,9 @@ class Event:
 class Shutdown(Event):
     """The whole launch ends."""
 
-    reason: str = field(default="reason not given", kw_only=True)
+    reason: Any = field(default="reason not given", kw_only=True)
+    """A text, where whoever ended the launch gave one."""
+
     due_to_sigint: bool = field(default=False, kw_only=True)
     name = "launch.events.Shutdown"
 
@@ -65,7 +68,7 @@ class ProcessIO(ProcessEvent):
 
 @dataclass
 class ExecutionComplete(Event):
-    """A process has ended, and is not started again."""
+    """An action has done what it does; a process has ended, and is not started again."""
 
-    action: StartsProcess
+    action: Any
     name = "launch.events.ExecutionComplete"

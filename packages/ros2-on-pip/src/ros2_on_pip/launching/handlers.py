@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from ros2_on_pip.launching.description import Entity, ProcessAction, checked
+from ros2_on_pip.launching.description import Action, Entity, ProcessAction, checked
 from ros2_on_pip.launching.events import (
     Event,
     ExecutionComplete,
@@ -14,7 +14,7 @@ from ros2_on_pip.launching.events import (
     ProcessStarted,
     Shutdown,
 )
-from ros2_on_pip.launching.places import calling_place
+from ros2_on_pip.launching.places import BadLaunchFile, calling_place
 from ros2_on_pip.launching.python_file import students_code
 
 if TYPE_CHECKING:
@@ -34,13 +34,20 @@ class EventHandler:
         entities: Answer = None,
         handle_once: bool = False,
     ) -> None:
+        """`entities` are actions; subclasses take functions, too. Raises TypeError."""
         self.matcher, self.handle_once = matcher, handle_once
         self.place = calling_place()
+        if type(self) is EventHandler and is_function(entities):
+            raise TypeError(
+                "entities of EventHandler are actions. A function goes into one:"
+                " entities=[OpaqueFunction(function=...)]"
+            )
         self.answer = answer_of(entities or (), type(self).__name__)
 
     def matches(self, event: Event) -> bool:
-        """Whether the event is for this handler."""
-        return self.matcher(event)
+        """Whether the event is for this handler. Raises BadLaunchFile."""
+        with students_code(self.place):
+            return bool(self.matcher(event))
 
     def handle(self, event: Event, context: LaunchContext) -> list[Entity]:
         """What is to be done about it. Raises WrongEntity."""
@@ -67,22 +74,41 @@ class EventHandler:
 
 def answer_of(answer: Answer, where: str) -> Answer:
     """A function as it is; anything else as a list of actions. Raises WrongEntity."""
-    return answer if callable(answer) and not isinstance(answer, type) else checked(answer, where)
+    return answer if is_function(answer) else checked(answer, where)
+
+
+def is_function(answer: Answer) -> bool:
+    """Whether it is called when the event is there; a class is an action without its brackets."""
+    return callable(answer) and not isinstance(answer, type)
 
 
 class OnAction(EventHandler):
-    """Base of those for one process, or for every one."""
+    """Base of those for one action, or for every one."""
 
     event: type[Any] = Event
+    kind: type[Any] = ProcessAction
+    called = "the Node(...) or ExecuteProcess(...)"
 
     def __init__(self, target_action: Any, answer: Answer, handle_once: bool) -> None:
         self.target = target_action
-        if not (target_action is None or callable(target_action) or _is_process(target_action)):
+        is_one = target_action is None or isinstance(target_action, self.kind)
+        if not is_one and not callable(target_action):
             raise TypeError(
-                f"target_action of {type(self).__name__} must be the Node(...) or"
-                f" ExecuteProcess(...) that the handler is for, and not {target_action!r}"
+                f"target_action of {type(self).__name__} must be {self.called} that the handler is"
+                f" for, and not {target_action!r}"
             )
         super().__init__(matcher=self._is_meant, entities=answer, handle_once=handle_once)
+        self._says_nothing = answer is not None and not is_function(answer) and not self.answer
+
+    def handle(self, event: Event, context: LaunchContext) -> list[Entity]:
+        """What is to be done about it. Raises WrongEntity; BadLaunchFile for an empty list."""
+        if self._says_nothing:
+            raise BadLaunchFile(
+                self.place,
+                f"{type(self).__name__} has an empty list, and Jazzy ends the launch at it."
+                " Take the handler out, or give it an action",
+            )
+        return super().handle(event, context)
 
     def _is_meant(self, event: Event) -> bool:
         if not isinstance(event, self.event):
@@ -90,10 +116,6 @@ class OnAction(EventHandler):
         if callable(self.target):
             return bool(self.target(event.action))
         return self.target is None or event.action is self.target
-
-
-def _is_process(value: Any) -> bool:
-    return isinstance(value, ProcessAction)
 
 
 class OnProcessStart(OnAction):
@@ -119,9 +141,11 @@ class OnProcessExit(OnAction):
 
 
 class OnExecutionComplete(OnAction):
-    """When a process has ended and is not started again."""
+    """When an action has done what it does: a process is not started again, a timer was due."""
 
     event = ExecutionComplete
+    kind = Action
+    called = "the action"
 
     def __init__(
         self, *, target_action: Any = None, on_completion: Answer, handle_once: bool = False
@@ -138,30 +162,32 @@ class OnProcessIO(OnAction):
         self,
         *,
         target_action: Any = None,
-        on_stdin: Answer = None,
-        on_stdout: Answer = None,
-        on_stderr: Answer = None,
+        on_stdin: Callable[[ProcessIO], Any] | None = None,
+        on_stdout: Callable[[ProcessIO], Any] | None = None,
+        on_stderr: Callable[[ProcessIO], Any] | None = None,
         handle_once: bool = False,
     ) -> None:
-        super().__init__(target_action, (), handle_once)
-        self.on_stdout = answer_of(on_stdout or (), "on_stdout")
-        self.on_stderr = answer_of(on_stderr or (), "on_stderr")
-        self.on_stdin = answer_of(on_stdin or (), "on_stdin")
+        """Each takes a function alone, in Jazzy too. Raises TypeError."""
+        super().__init__(target_action, None, handle_once)
+        said = {"on_stdin": on_stdin, "on_stdout": on_stdout, "on_stderr": on_stderr}
+        for name, function in said.items():
+            if function is not None and not is_function(function):
+                raise TypeError(
+                    f"{name} takes a function of the event: {name}=lambda event: ..., and not"
+                    f" {function!r}"
+                )
+        self.on_stdin, self.on_stdout, self.on_stderr = on_stdin, on_stdout, on_stderr
 
     def handle(self, event: Event, context: LaunchContext) -> list[Entity]:
         """What is to be done about the text. Raises WrongEntity."""
         super().handle(event, context)
         from_stdout = isinstance(event, ProcessIO) and event.from_stdout
-        return self.answered(self.on_stdout if from_stdout else self.on_stderr, event, context)
+        function = self.on_stdout if from_stdout else self.on_stderr
+        return self.answered(function or (), event, context)
 
     def more_for_answers(self, context: LaunchContext) -> list[LaunchContext]:
         """Nothing: in Jazzy, too, these functions get the event alone."""
         return []
-
-    def inner(self) -> list[Entity]:
-        """The actions that are known beforehand."""
-        answers = (self.on_stdout, self.on_stderr)
-        return [one for answer in answers if not callable(answer) for one in answer]
 
 
 class OnShutdown(EventHandler):

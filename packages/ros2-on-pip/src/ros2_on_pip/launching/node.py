@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from ros2_on_pip.launching.actions import inside
+from ros2_on_pip.launching.actions import NAME, inside
 from ros2_on_pip.launching.parameters import checked_parameters, parameter_words
 from ros2_on_pip.launching.processes import ExecuteProcess
 from ros2_on_pip.launching.substitution import (
@@ -26,7 +25,6 @@ from ros2_on_pip.programs import command_of
 if TYPE_CHECKING:
     from ros2_on_pip.launching.context import LaunchContext
 
-NODE_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 EVERY_NODE = "/**"
 
 
@@ -54,10 +52,13 @@ class Node(ExecuteProcess):
         self.package = parts_or_none(package, "package")
         self.node_name_parts = parts_or_none(name, "name")
         self.namespace = parts_or_none(namespace, "namespace")
-        self.parameters = checked_parameters(parameters or [])
-        self.remappings = [_pair(one) for one in remappings or ()]
+        self.parameters = checked_parameters([] if parameters is None else parameters)
+        self.remappings = [_pair(one) for one in (() if remappings is None else remappings)]
         self.arguments = _words(arguments, "arguments")
         self.ros_arguments = _words(ros_arguments, "ros_arguments")
+        if ros_arguments is not None and not isinstance(ros_arguments, list):
+            raise TypeError(f"ros_arguments must be a list, not {ros_arguments!r}")
+        self.label: str | None = None
 
     def command(self, context: LaunchContext) -> list[str]:
         """The program, its words, and those that ROS reads."""
@@ -69,13 +70,12 @@ class Node(ExecuteProcess):
         if self.package is None:
             return [name]
         program = program_of(performed(context, self.package), name)
-        if self.name is None:
-            self.label = name_of(program)
+        self.label = name_of(program)
         return command_of(program)
 
-    def name_on_screen(self) -> Parts | None:
+    def program_name(self, first_word: str) -> str:
         """By the program, also where a Python runs it."""
-        return self.name or parts_or_none(getattr(self, "label", None), "name")
+        return self.label or super().program_name(first_word)
 
     def _ros(self, context: LaunchContext) -> list[str]:
         name = self._name(context)
@@ -93,7 +93,7 @@ class Node(ExecuteProcess):
 
     def _name(self, context: LaunchContext) -> str | None:
         name = performed_or_none(context, self.node_name_parts)
-        if name is None or NODE_NAME.fullmatch(name):
+        if name is None or NAME.fullmatch(name):
             return name
         step = " What stands before the / belongs into namespace." if "/" in name else ""
         raise SubstitutionFailure(
@@ -107,13 +107,7 @@ class Node(ExecuteProcess):
         own = performed_or_none(context, self.namespace)
         if outer is None and own is None:
             return None
-        space = inside(outer or "", own or "") or "/"
-        if not all(NODE_NAME.fullmatch(part) for part in space.split("/")[1:] if space != "/"):
-            raise SubstitutionFailure(
-                f"'{space}' is no namespace: letters, digits and underscores between slashes, and"
-                " no digit after a slash"
-            )
-        return space
+        return inside(outer or "", own or "") or "/"
 
     def details(self) -> str:
         """Package, executable, and what else is said."""
@@ -129,11 +123,11 @@ class Node(ExecuteProcess):
 def _words(words: Any, what: str) -> list[Parts]:
     if isinstance(words, str):
         raise TypeError(f"{what} must be a list of words: {what}={words.split()!r}")
-    return [parts_of(word, f"each word of {what}") for word in words or ()]
+    return [parts_of(word, f"each word of {what}") for word in (() if words is None else words)]
 
 
 def _pair(pair: Any) -> tuple[Parts, Parts]:
-    if isinstance(pair, str) or len(pair) != 2:
+    if not isinstance(pair, tuple) or len(pair) != 2:
         raise TypeError(
             f"each of the remappings has two names, remappings=[('from', 'to')], and not {pair!r}"
         )

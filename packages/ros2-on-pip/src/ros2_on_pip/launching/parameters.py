@@ -1,7 +1,7 @@
 """The parameters of a node: from dictionaries, files and single values to words of its command.
 
-What becomes of which value is as in Jazzy's launch_ros: a text of the launch file stays a text;
-what a substitution gives is read as YAML, so that `2` is a number, except where `value_type=str`
+What becomes of which value is as in Jazzy's launch_ros. A text of the launch file stays a text.
+What a substitution gives is read as YAML, so that `2` is a number, except where `value_type=str`
 says otherwise.
 """
 
@@ -16,11 +16,13 @@ from ros2_on_pip.launching.substitution import (
     SomeSubstitutionsType,
     Substitution,
     SubstitutionFailure,
+    is_substitution,
     parts_of,
     performed,
 )
-from ros2_on_pip.launching.substitutions import truth
 from ros2_on_pip.launching.text import parts_in
+from ros2_on_pip.launching.typed import yaml_truth
+from ros2_on_pip.launching.wrong_kind import WrongValueKind
 
 if TYPE_CHECKING:
     from ros2_on_pip.launching.context import LaunchContext
@@ -34,25 +36,43 @@ class ParameterValue:
     """A value that is read as one type."""
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
+        """A plain value must be of `value_type`; only a substitution is read.
+
+        Raises TypeError, and ValueError for a type that no parameter has.
+        """
         self.value, self.value_type = value, value_type
+        if value_type is not None and {value_type, listed_by(value_type)}.isdisjoint(PLAIN):
+            raise ValueError(f"value_type is bool, int, float, str, or a List of one: {value_type}")
+        if isinstance(value, PLAIN) and value_type in PLAIN and not isinstance(value, value_type):
+            raise WrongValueKind("value of ParameterValue", value_type, value)
+        if not _is_value(value) and not _is_list_of_values(value):
+            raise TypeError(f"{value!r} is no value of a parameter, and no list of values")
 
     def evaluate(self, context: LaunchContext) -> Any:
         """The value. Raises SubstitutionFailure."""
-        found = value_of(context, self.value, as_text=self.value_type is str)
-        if kind := listed_by(self.value_type):
-            return _list_of(kind, found)
-        if self.value_type in PLAIN and not isinstance(found, self.value_type):
-            return self._cast(found)
-        return found
+        if self.value_type in PLAIN and is_substitution(self.value):
+            return self._read(performed(context, parts_of(self.value, "value")))
+        found = value_of(context, self.value)
+        kind = listed_by(self.value_type)
+        return _list_of(kind, found) if kind else found
 
-    def _cast(self, value: Any) -> Any:
+    def _read(self, text: str) -> Any:
+        """As Python reads a number, and as YAML reads a truth. Raises SubstitutionFailure."""
         if self.value_type is bool:
-            return truth(str(value), "a parameter of type bool")
+            return yaml_truth(text, "a parameter of type bool")
         try:
-            return self.value_type(value)
-        except (TypeError, ValueError):
+            return self.value_type(text)
+        except ValueError:
             name = self.value_type.__name__
-            raise SubstitutionFailure(f"{value!r} is no value of type {name}") from None
+            raise SubstitutionFailure(f"{text!r} is no value of type {name}") from None
+
+
+def _is_value(value: Any) -> bool:
+    return isinstance(value, PLAIN) or is_substitution(value)
+
+
+def _is_list_of_values(value: Any) -> bool:
+    return isinstance(value, list | tuple) and all(_is_value(one) for one in value)
 
 
 def listed_by(value_type: Any) -> Any:
@@ -97,16 +117,20 @@ class ParameterFile:
         self,
         param_file: SomeSubstitutionsType,
         *,
-        allow_substs: bool | SomeSubstitutionsType = False,
+        allow_substs: bool = False,
     ) -> None:
+        """Raises TypeError where `allow_substs` is no bool, but a substitution."""
         self.param_file = parts_of(param_file, "param_file of ParameterFile")
-        switch = str(allow_substs) if isinstance(allow_substs, bool) else allow_substs
-        self.allow_substs = parts_of(switch, "allow_substs of ParameterFile")
+        if not isinstance(allow_substs, bool):
+            raise TypeError(
+                f"allow_substs of ParameterFile must be True or False, not {allow_substs!r}"
+            )
+        self.allow_substs = allow_substs
 
     def evaluate(self, context: LaunchContext) -> Path:
         """The file that the node reads. Raises SubstitutionFailure."""
         file = existing_file(performed(context, self.param_file))
-        if not truth(performed(context, self.allow_substs), "allow_substs"):
+        if not self.allow_substs:
             return file
         place = context.new_file(".yaml")
         place.write_text(performed(context, parts_in(file.read_text("utf-8"))), encoding="utf-8")
@@ -126,7 +150,7 @@ def existing_file(name: str) -> Path:
 
 def checked_parameters(parameters: Any) -> list[Any]:
     """The list as it stands. Raises TypeError where it is none, or holds something else."""
-    if isinstance(parameters, str | Mapping) or not isinstance(parameters, Iterable):
+    if not isinstance(parameters, list):
         raise TypeError(
             "parameters must be a list of dictionaries and files: parameters=[{'rate': 2.0}],"
             f" and not {parameters!r}"
@@ -156,7 +180,7 @@ def _words(context: LaunchContext, one: Any, node: str) -> Words:
     import yaml
 
     file = context.new_file(".yaml")
-    tree = {node: {"ros__parameters": dict(_flat(context, one))}}
+    tree = {node: {"ros__parameters": dict(flat(context, one))}}
     file.write_text(yaml.safe_dump(tree, default_flow_style=False), encoding="utf-8")
     return "--params-file", str(file)
 
@@ -169,13 +193,14 @@ def rule(context: LaunchContext, name: Parts, value: Any) -> Words:
     return "-p", f"{performed(context, name)}:={text.removesuffix('...' + chr(10)).strip()}"
 
 
-def _flat(
+def flat(
     context: LaunchContext, tree: Mapping[Any, Any], prefix: str = ""
 ) -> Iterable[tuple[str, Any]]:
+    """Names, joined by dots, and their values. Raises SubstitutionFailure."""
     for key, value in tree.items():
         name = prefix + performed(context, parts_of(key, "the name of a parameter"))
         if isinstance(value, Mapping):
-            yield from _flat(context, value, f"{name}.")
+            yield from flat(context, value, f"{name}.")
         else:
             yield name, _named_value(context, name, value)
 
@@ -187,32 +212,39 @@ def _named_value(context: LaunchContext, name: str, value: Any) -> Any:
         raise SubstitutionFailure(f"parameter '{name}': {failure}") from None
 
 
-def value_of(context: LaunchContext, value: Any, *, as_text: bool = False) -> Any:
+def value_of(context: LaunchContext, value: Any) -> Any:
     """The value of a parameter. Raises SubstitutionFailure."""
     if isinstance(value, ParameterValue):
         return value.evaluate(context)
     if isinstance(value, PurePath):
         return str(value)
     if isinstance(value, PLAIN):
-        return str(value) if as_text else value
+        return value
     if isinstance(value, Substitution):
-        return _read(performed(context, [value]), as_text)
+        return _read(performed(context, [value]))
     if isinstance(value, Iterable) and not isinstance(value, Mapping | bytes):
-        return _many(context, list(value), as_text)
+        return _many(context, list(value))
     raise SubstitutionFailure(
         f"{value!r} is no value of a parameter: it is a bool, an int, a float, a str, or a list of"
         " one of them"
     )
 
 
-def _many(context: LaunchContext, values: list[Any], as_text: bool) -> Any:
+def _many(context: LaunchContext, values: list[Any]) -> Any:
     """A list of values; texts and substitutions side by side are put together to one text."""
-    if any(isinstance(one, Substitution) for one in values):
-        return _read(performed(context, parts_of(values, "each part of a value")), as_text)
-    found = [value_of(context, one) for one in values]
+    if is_substitution(values):
+        return _read(performed(context, parts_of(values, "each part of a value")))
+    found = [_one_of_many(context, one) for one in values]
     if {type(one) for one in found} == {int, float}:
         return [float(one) for one in found]
     return _uniform(found)
+
+
+def _one_of_many(context: LaunchContext, value: Any) -> Any:
+    """A list inside a list is the parts of one text."""
+    if isinstance(value, list | tuple):
+        return _read(performed(context, parts_of(value, "each part of a value")))
+    return value_of(context, value)
 
 
 def _uniform(values: Any) -> list[Any]:
@@ -225,9 +257,8 @@ def _uniform(values: Any) -> list[Any]:
     return list(values)
 
 
-def _read(text: str, as_text: bool) -> Any:
-    if as_text:
-        return text
+def _read(text: str) -> Any:
+    """What YAML makes of it. Raises SubstitutionFailure."""
     import yaml
 
     try:

@@ -8,13 +8,13 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 
 OURS = str(Path(__file__).parent)
 
 
 @dataclass(frozen=True)
-class Place:
+class LaunchFileLine:
     """A line of a launch file."""
 
     file: Path
@@ -24,17 +24,17 @@ class Place:
         return f"{self.file.name}, line {self.line}"
 
 
-class BadLaunchFile(Problem):
+class BadLaunchFile(CommandProblem):
     """The launch file cannot be carried out as it stands."""
 
-    def __init__(self, place: Place | str, reason: str) -> None:
+    def __init__(self, place: LaunchFileLine | str, reason: str) -> None:
         super().__init__(f"[ERROR] [launch]: {place}: {reason}")
 
 
 class NotReadHere(BadLaunchFile):
     """Right in Jazzy, and only the full ROS carries it out."""
 
-    def __init__(self, place: Place | str, what: str, instead: str = "") -> None:
+    def __init__(self, place: LaunchFileLine | str, what: str, instead: str = "") -> None:
         from ros2_on_pip.words import NOT_READ_HERE
 
         self.exit_code = NOT_READ_HERE
@@ -46,11 +46,11 @@ class NotReadHere(BadLaunchFile):
         )
 
 
-_standing: list[Place] = []
+_standing: list[LaunchFileLine] = []
 
 
 @contextmanager
-def standing_at(place: Place) -> Iterator[None]:
+def standing_at(place: LaunchFileLine) -> Iterator[None]:
     """What is made inside stands at `place`: an element of XML or YAML, which no frame names."""
     _standing.append(place)
     try:
@@ -59,11 +59,11 @@ def standing_at(place: Place) -> Iterator[None]:
         _standing.pop()
 
 
-def calling_place() -> Place:
+def calling_place() -> LaunchFileLine:
     """The element that is read, or the line outside this room that is being carried out."""
     if _standing:
         return _standing[-1]
     frame = sys._getframe(1)
     while frame.f_back and frame.f_code.co_filename.startswith((OURS, "<frozen")):
         frame = frame.f_back
-    return Place(Path(frame.f_code.co_filename), frame.f_lineno)
+    return LaunchFileLine(Path(frame.f_code.co_filename), frame.f_lineno)

@@ -15,6 +15,7 @@ class StartsProcess(Protocol):
 
     pid: int | None
     log_cmd: bool
+    end_is_heard: bool
 
 
 @dataclass(frozen=True)

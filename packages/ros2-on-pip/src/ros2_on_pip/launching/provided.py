@@ -11,6 +11,8 @@ from functools import cache
 from importlib import import_module
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import ModuleType
 from typing import Any
 
@@ -31,6 +33,8 @@ from ros2_on_pip.launching import (
     substitutions,
 )
 from ros2_on_pip.launching.places import NotReadHere, calling_place
+from ros2_on_pip.launching.reading import description_in
+from ros2_on_pip.launching.screen import LaunchOutput
 
 Names = Mapping[str, Any]
 
@@ -85,6 +89,7 @@ SUBSTITUTIONS = (
     "NotSubstitution",
     "OrSubstitution",
     "PathJoinSubstitution",
+    "PathSubstitution",
     "PythonExpression",
     "ThisLaunchFile",
     "ThisLaunchFileDir",
@@ -181,7 +186,20 @@ def _normalized(parts: Any) -> substitution.Parts:
     return substitution.parts_of(parts, "a text")
 
 
-class Offer(MetaPathFinder, Loader):
+@cache
+def _room() -> TemporaryDirectory[str]:
+    """It goes when the program ends."""
+    return TemporaryDirectory(prefix="roslings_launch_")
+
+
+def _around_by_hand() -> context.Around:
+    return context.Around(LaunchOutput(), Path(_room().name), description_in)
+
+
+context.LaunchContext.by_hand = _around_by_hand
+
+
+class ProvidedModuleFinder(MetaPathFinder, Loader):
     """Finds our modules where nobody else has found one of that name."""
 
     def find_spec(
@@ -217,7 +235,7 @@ def _found_in(module: str) -> Callable[[str], Any]:
     return found
 
 
-_offer = Offer()
+_offer = ProvidedModuleFinder()
 
 
 def offer() -> None:

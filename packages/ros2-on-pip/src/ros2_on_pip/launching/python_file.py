@@ -15,11 +15,12 @@ from typing import Any
 
 from ros2_on_pip.launching import elsewhere, jazzy
 from ros2_on_pip.launching.description import LaunchDescription
-from ros2_on_pip.launching.places import OURS, BadLaunchFile, NotReadHere, Place
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.launching.places import OURS, BadLaunchFile, LaunchFileLine, NotReadHere
+from ros2_on_pip.launching.wrong_kind import Refused
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 
 FUNCTION = "generate_launch_description"
-_running: list[Place] = []
+_running: list[LaunchFileLine] = []
 _traced: list[bool] = []
 MISSING = re.compile(r"(\w+)\.__init__\(\) missing \d+ required .*arguments?: (.*)")
 NO_ATTRIBUTE = re.compile(r"module '([\w.]+)' has no attribute '(\w+)'")
@@ -31,8 +32,8 @@ def described_by(file: Path) -> LaunchDescription:
     module = _carried_out(file)
     make = getattr(module, FUNCTION, None)
     if not callable(make):
-        raise BadLaunchFile(Place(file, 1), _no_function(module))
-    place = Place(file, inspect.unwrap(make).__code__.co_firstlineno)
+        raise BadLaunchFile(LaunchFileLine(file, 1), _no_function(module))
+    place = LaunchFileLine(file, inspect.unwrap(make).__code__.co_firstlineno)
     with students_code(place):
         made = make()
     if isinstance(made, LaunchDescription):
@@ -58,20 +59,20 @@ def _carried_out(file: Path) -> ModuleType:
     module = ModuleType(f"launch_file_{file.stem.replace('.', '_')}")
     module.__file__ = str(file)
     sys.modules[module.__name__] = module  # dataclasses look for the module that they are in
-    with students_code(Place(file, 1)):
+    with students_code(LaunchFileLine(file, 1)):
         exec(compile(file.read_bytes(), str(file), "exec", dont_inherit=True), vars(module))
     return module
 
 
 @contextmanager
-def students_code(place: Place) -> Iterator[None]:
+def students_code(place: LaunchFileLine) -> Iterator[None]:
     """What goes wrong inside is told with its line, not as a traceback. Raises BadLaunchFile."""
     _running.append(place)
     try:
         yield
     except BadLaunchFile:
         raise
-    except Problem as problem:
+    except CommandProblem as problem:
         raise BadLaunchFile(place, str(problem)) from None
     except SyntaxError as fault:
         _trace()
@@ -102,9 +103,9 @@ def in_students_code() -> bool:
     return bool(_running)
 
 
-def _place_of_syntax(fault: SyntaxError, place: Place) -> Place:
+def _place_of_syntax(fault: SyntaxError, place: LaunchFileLine) -> LaunchFileLine:
     file = Path(fault.filename) if fault.filename else place.file
-    return Place(file, fault.lineno or 1)
+    return LaunchFileLine(file, fault.lineno or 1)
 
 
 def _syntax(fault: SyntaxError) -> str:
@@ -113,20 +114,20 @@ def _syntax(fault: SyntaxError) -> str:
     return f"no valid Python: {mistake}. Look at this line, and at the one before it:\n{line}"
 
 
-def _where(trace: TracebackType | None, place: Place) -> Place:
+def _where(trace: TracebackType | None, place: LaunchFileLine) -> LaunchFileLine:
     """The last line of the launch file that was being carried out, or of a file beside it."""
     frames = [(Path(f.f_code.co_filename), line) for f, line in traceback.walk_tb(trace)]
-    own = [Place(*one) for one in frames if one[0] == place.file]
-    others = [Place(*one) for one in frames if not str(one[0]).startswith((OURS, "<"))]
+    own = [LaunchFileLine(*one) for one in frames if one[0] == place.file]
+    others = [LaunchFileLine(*one) for one in frames if not str(one[0]).startswith((OURS, "<"))]
     return (own or others or [place])[-1]
 
 
-def _line_of(place: Place) -> str:
+def _line_of(place: LaunchFileLine) -> str:
     line = linecache.getline(str(place.file), place.line).strip()
     return f"\n    {line}" if line else ""
 
 
-def _fault(where: Place, fault: Exception) -> BadLaunchFile:
+def _fault(where: LaunchFileLine, fault: Exception) -> BadLaunchFile:
     """A mistake, or something of Jazzy's objects that ours do not have."""
     if isinstance(fault, AttributeError) and (missing := _missing_attribute(fault)):
         return NotReadHere(where, missing)
@@ -203,11 +204,12 @@ WORDS: tuple[tuple[type[Exception], Callable[[Any], str]], ...] = (
     (AttributeError, _attribute_error),
     (KeyError, _package_error),
     (TypeError, _type_error),
+    (Refused, str),
 )
 """Kind of a fault to how it is told; the first that has words for it tells."""
 
 
-def _no_module(place: Place, fault: ModuleNotFoundError) -> BadLaunchFile:
+def _no_module(place: LaunchFileLine, fault: ModuleNotFoundError) -> BadLaunchFile:
     name = fault.name or ""
     if name in elsewhere.MODULES or name in jazzy.MODULES:
         return NotReadHere(place, f"'{name}'", elsewhere.instead_of(name))

@@ -21,7 +21,7 @@ def log_root() -> Path:
     return (Path(home).expanduser() if home else Path.home() / ".ros") / "log"
 
 
-class Screen:
+class LaunchOutput:
     """Takes every line of a launch."""
 
     def __init__(self) -> None:
@@ -31,7 +31,7 @@ class Screen:
         self._files: dict[str, TextIO] = {}
         self._open = ExitStack()
 
-    def __enter__(self) -> Screen:
+    def __enter__(self) -> LaunchOutput:
         return self
 
     def __exit__(

@@ -27,8 +27,8 @@ from ros2_on_pip.launching.handlers import OnProcessIO
 from ros2_on_pip.launching.places import BadLaunchFile
 from ros2_on_pip.launching.planned import Planned
 from ros2_on_pip.launching.python_file import in_students_code
-from ros2_on_pip.launching.screen import Screen
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.launching.screen import LaunchOutput
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.words import FAILED, OK
 
 GIVES_UP_AFTER_S = 5.0
@@ -41,7 +41,7 @@ INTERRUPTS = (signal.SIGINT, signal.SIGTERM)
 class LaunchService:
     """One launch, from its first action to the end of its last process."""
 
-    def __init__(self, context: LaunchContext, screen: Screen) -> None:
+    def __init__(self, context: LaunchContext, screen: LaunchOutput) -> None:
         self._context, self._screen = context, screen
         self._alive: dict[int, Child] = {}
         self._ended: list[Child] = []
@@ -115,12 +115,12 @@ class LaunchService:
         """A fault in what is done later is told, and ends the launch."""
         try:
             act()
-        except Problem as problem:
+        except CommandProblem as problem:
             self._fail(problem)
         except KeyboardInterrupt:
             return  # it ended what the student's code did; `_interrupt` has counted it
 
-    def _fail(self, problem: Problem) -> None:
+    def _fail(self, problem: CommandProblem) -> None:
         prefix = "" if isinstance(problem, BadLaunchFile) else "[ERROR] [launch]: "
         self._screen.say(f"{prefix}{problem}")
         self._broken = True
@@ -134,7 +134,7 @@ class LaunchService:
         try:
             child = Child(planned)
         except OSError as fault:
-            self._fail(Problem(f"{planned.command[0]} could not be started: {fault}"))
+            self._fail(CommandProblem(f"{planned.command[0]} could not be started: {fault}"))
             return
         planned.action.pid = child.pid
         if planned.action.log_cmd:
@@ -198,7 +198,8 @@ class LaunchService:
         again = respawn.wanted and (respawn.most < 0 or tries < respawn.most)
         if not again or self._context.is_shutdown:
             self._ended.append(child)
-            self._context.emit_event_sync(ExecutionComplete(action=planned.action))
+            if planned.action.end_is_heard:
+                self._context.emit_event_sync(ExecutionComplete(action=planned.action))
             return
         self._stop_reading(child)
         child.bury()

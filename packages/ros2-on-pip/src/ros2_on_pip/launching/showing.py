@@ -10,7 +10,7 @@ from ros2_on_pip.launching.actions import DeclareLaunchArgument
 from ros2_on_pip.launching.description import Entity
 from ros2_on_pip.launching.sources import IncludeLaunchDescription
 from ros2_on_pip.launching.substitution import described
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 
 if TYPE_CHECKING:
     from ros2_on_pip.launching.context import LaunchContext
@@ -19,7 +19,7 @@ NOTHING_SAID = "no description given"
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownArgument:
     """An argument, and whether it counts only where a condition holds."""
 
     argument: DeclareLaunchArgument
@@ -28,16 +28,16 @@ class Shown:
 
 def all_arguments(
     context: LaunchContext, entity: Entity, conditional: bool = False
-) -> dict[str, Shown]:
+) -> dict[str, ShownArgument]:
     """By name, those of the files that it includes too.
 
     A file that cannot be found before the launch runs is left out.
     """
-    found: dict[str, Shown] = {}
+    found: dict[str, ShownArgument] = {}
     for inner in entity.inner():
         here = conditional or getattr(inner, "condition", None) is not None
         if isinstance(inner, DeclareLaunchArgument):
-            found.setdefault(inner.name, Shown(inner, here))
+            found.setdefault(inner.name, ShownArgument(inner, here))
         for name, shown in all_arguments(context, _opened(context, inner), here).items():
             found.setdefault(name, shown)
     return found
@@ -49,11 +49,11 @@ def _opened(context: LaunchContext, entity: Entity) -> Entity:
         return entity
     try:
         return entity.source.get_launch_description(context)
-    except Problem:
+    except CommandProblem:
         return entity
 
 
-def argument_lines(shown: Iterable[Shown]) -> list[str]:
+def argument_lines(shown: Iterable[ShownArgument]) -> list[str]:
     """The arguments of a launch file as the real tool lists them."""
     arguments = list(shown)
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]

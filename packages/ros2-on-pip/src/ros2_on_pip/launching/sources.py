@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ros2_on_pip.launching.actions import MissingArgument, SetLaunchConfiguration
-from ros2_on_pip.launching.arguments import arguments_of
+from ros2_on_pip.launching.arguments import required_arguments_of
 from ros2_on_pip.launching.description import Action, Entity, LaunchDescription
 from ros2_on_pip.launching.places import BadLaunchFile
 from ros2_on_pip.launching.substitution import (
@@ -92,18 +92,22 @@ class IncludeLaunchDescription(Action):
     def execute(self, context: LaunchContext) -> Iterable[Entity]:
         """Set the arguments, then carry out the file."""
         file = self.source.path(context)
-        yield from self.launch_arguments
         description = self.source.get_launch_description(context)
-        self._check(context, description)
+        self._require_arguments(context, description)
+        yield from self.launch_arguments
         with context.reading(file):
             yield description
 
-    def _check(self, context: LaunchContext, description: LaunchDescription) -> None:
-        """Raises BadLaunchFile before anything of the file is carried out."""
-        for argument in arguments_of(description):
-            known = argument.name in context.launch_configurations
-            if argument.default_value is None and argument.condition is None and not known:
-                missing = MissingArgument(argument.name, argument.description)
+    def _require_arguments(self, context: LaunchContext, description: LaunchDescription) -> None:
+        """Raises BadLaunchFile before anything is set, or carried out.
+
+        A configuration of the surroundings is not enough, in Jazzy neither.
+        """
+        given = [performed(context, each.name) for each in self.launch_arguments]
+        for argument in required_arguments_of(description):
+            if argument.name not in given:
+                around = argument.name in context.launch_configurations
+                missing = MissingArgument(argument.name, argument.description, around)
                 raise BadLaunchFile(argument.place, str(missing))
 
     def inner(self) -> list[Entity]:

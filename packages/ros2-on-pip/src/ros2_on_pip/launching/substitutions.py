@@ -10,7 +10,7 @@ import shutil
 import subprocess
 import uuid
 from collections.abc import Iterable
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any
 
 from ros2_on_pip.launching.substitution import (
@@ -19,10 +19,14 @@ from ros2_on_pip.launching.substitution import (
     Substitution,
     SubstitutionFailure,
     described,
+    is_substitution,
     parts_of,
     parts_or_none,
     performed,
+    performed_or_none,
 )
+from ros2_on_pip.launching.typed import yaml_truth
+from ros2_on_pip.launching.wrong_kind import Refused
 from ros2_on_pip.problem import did_you_mean
 
 if TYPE_CHECKING:
@@ -42,19 +46,15 @@ def truth(text: str, what: str) -> bool:
 class LaunchConfiguration(Substitution):
     """The value of a launch argument, or of what SetLaunchConfiguration has set."""
 
-    def __init__(
-        self, variable_name: SomeSubstitutionsType, *, default: SomeSubstitutionsType | None = None
-    ) -> None:
+    def __init__(self, variable_name: SomeSubstitutionsType, *, default: Any | None = None) -> None:
         self.variable_name = parts_of(variable_name, "the name of a LaunchConfiguration")
-        if isinstance(default, bool | int | float):
-            default = str(default)
-        self.default = parts_or_none(default, "default of LaunchConfiguration")
+        self.default = None if default is None else parts_of(_as_texts(default), "default")
 
-    def perform(self, context: LaunchContext) -> str:
-        """The value. Raises SubstitutionFailure."""
+    def perform(self, context: LaunchContext) -> Any:
+        """The value: a text, unless a function has set another one. Raises SubstitutionFailure."""
         name = performed(context, self.variable_name)
         if name in context.launch_configurations:
-            return str(context.launch_configurations[name])
+            return context.launch_configurations[name]
         if self.default is not None:
             return performed(context, self.default)
         near = did_you_mean(name, context.launch_configurations)
@@ -68,6 +68,13 @@ class LaunchConfiguration(Substitution):
         return f"LaunchConfig({described(self.variable_name)})"
 
 
+def _as_texts(default: Any) -> list[str | Substitution]:
+    """What a default is put together of: a number, and any other value, becomes a text."""
+    is_one = isinstance(default, str) or not isinstance(default, Iterable)
+    items = [default] if is_one else default
+    return [one if isinstance(one, str | Substitution) else str(one) for one in items]
+
+
 class EnvironmentVariable(Substitution):
     """A variable of the environment."""
 
@@ -78,13 +85,15 @@ class EnvironmentVariable(Substitution):
         self.default_value = parts_or_none(default_value, "default_value of EnvironmentVariable")
 
     def perform(self, context: LaunchContext) -> str:
-        """The value. Raises SubstitutionFailure."""
+        """The value. Raises SubstitutionFailure, also where a default that is not needed fails."""
+        default = performed_or_none(context, self.default_value)
         name = performed(context, self.name)
-        if name in context.environment:
-            return context.environment[name]
-        if self.default_value is not None:
-            return performed(context, self.default_value)
-        raise SubstitutionFailure(f"the environment variable {name} is not set: export {name}=...")
+        value = context.environment.get(name, default)
+        if value is None:
+            raise SubstitutionFailure(
+                f"the environment variable {name} is not set: export {name}=..."
+            )
+        return value
 
     def describe(self) -> str:
         """By its name."""
@@ -111,37 +120,61 @@ class PathJoinSubstitution(_Listed):
     """Parts of a path, with slashes between them."""
 
     def __init__(self, substitutions: Iterable[SomeSubstitutionsType]) -> None:
-        super().__init__([substitutions] if isinstance(substitutions, str) else substitutions)
+        """`substitutions` is a list, also of one part. Raises TypeError."""
+        if isinstance(substitutions, str | PurePath | Substitution):
+            name = type(self).__name__
+            raise TypeError(f"{name} takes a list of parts, {name}([...]), not {substitutions!r}")
+        super().__init__(substitutions)
 
     def perform(self, context: LaunchContext) -> str:
-        """The path. Raises SubstitutionFailure."""
-        return str(Path(*self.performed_texts(context)))
+        """The path; a part that is empty at the end leaves a slash. Raises SubstitutionFailure."""
+        if not self.texts:
+            raise SubstitutionFailure(f"{type(self).__name__} has no part")
+        return os.path.join(*self.performed_texts(context))  # noqa: PTH118  # a Path drops slashes
+
+    def __truediv__(self, more: SomeSubstitutionsType) -> PathJoinSubstitution:
+        """One more part behind it."""
+        return PathJoinSubstitution([*self.texts, parts_of(more, "a part of a path")])
+
+
+class PathSubstitution(PathJoinSubstitution):
+    """A path that `/` makes longer."""
+
+    def __init__(self, path: SomeSubstitutionsType) -> None:
+        super().__init__(parts_of(path, "path of PathSubstitution"))
 
 
 class PythonExpression(_Listed):
     """What Python makes of an expression."""
 
     def __init__(
-        self, expression: SomeSubstitutionsType, python_modules: Iterable[str] | None = None
+        self,
+        expression: SomeSubstitutionsType,
+        python_modules: SomeSubstitutionsType = ("math",),
     ) -> None:
+        """Each of `python_modules` is a module; a text is one. Raises WrongKind."""
         super().__init__([expression])
-        self.python_modules = ["math"] if python_modules is None else list(python_modules)
+        self.python_modules = parts_of(python_modules, "python_modules of PythonExpression")
 
     def perform(self, context: LaunchContext) -> str:
         """The value as a text. Raises SubstitutionFailure."""
         (text,) = self.performed_texts(context)
-        known: dict[str, Any] = {name: importlib.import_module(name) for name in self._modules()}
-        known |= vars(known["math"]) if "math" in known else {}
         try:
-            return str(eval(text, {}, known))
+            return str(eval(text, {}, self._known(context)))
         except Exception as fault:
             raise SubstitutionFailure(
                 f"Python cannot make a value of `{text}`: {type(fault).__name__}: {fault}."
                 " A text in it needs quotes of its own: \"'\", LaunchConfiguration('x'), \"'\""
             ) from None
 
-    def _modules(self) -> list[str]:
-        return [str(name) for name in self.python_modules]
+    def _known(self, context: LaunchContext) -> dict[str, Any]:
+        """Each module by its name, and what is in math without it, too."""
+        names = [performed(context, [one]) for one in self.python_modules]
+        known: dict[str, Any] = {name: importlib.import_module(name) for name in names}
+        return known | (vars(known["math"]) if "math" in known else {})
+
+
+ON_STDERR = ("fail", "ignore", "warn", "capture")
 
 
 class Command(_Listed):
@@ -155,10 +188,17 @@ class Command(_Listed):
     def perform(self, context: LaunchContext) -> str:
         """The output. Raises SubstitutionFailure."""
         text, on_stderr = self.performed_texts(context)
+        if on_stderr not in ON_STDERR:
+            known = ", ".join(ON_STDERR)
+            raise SubstitutionFailure(
+                f"on_stderr is one of {known}, and not '{on_stderr}'."
+                f"{did_you_mean(on_stderr, ON_STDERR)}"
+            )
         try:
             done = subprocess.run(
                 shlex.split(text),
-                capture_output=True,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE,
                 text=True,
                 check=False,
                 stdin=subprocess.DEVNULL,
@@ -167,13 +207,13 @@ class Command(_Listed):
         except (OSError, ValueError) as fault:
             raise SubstitutionFailure(f"the command `{text}` cannot be run: {fault}") from None
         if done.returncode or (done.stderr and on_stderr == "fail"):
-            said = done.stderr.strip() or "no word about the reason"
+            said = (done.stderr or done.stdout).strip() or "no word about the reason"
             raise SubstitutionFailure(
                 f"the command `{text}` ended with exit code {done.returncode}: {said}"
             )
         if done.stderr and on_stderr == "warn":
             context.say(f"[WARNING] [launch]: `{text}` says: {done.stderr.strip()}")
-        return done.stdout + (done.stderr if on_stderr == "capture" else "")
+        return done.stdout
 
 
 class FindExecutable(Substitution):
@@ -195,7 +235,15 @@ class FindExecutable(Substitution):
         return f"FindExec({described(self.name)})"
 
 
-class FindPackagePrefix(Substitution):
+class _Folder(Substitution):
+    """Base of those that `/` makes longer."""
+
+    def __truediv__(self, more: SomeSubstitutionsType) -> PathJoinSubstitution:
+        """One more part behind it."""
+        return PathJoinSubstitution([self, parts_of(more, "a part of a path")])
+
+
+class FindPackagePrefix(_Folder):
     """The folder that a package is installed in."""
 
     def __init__(self, package: SomeSubstitutionsType) -> None:
@@ -233,7 +281,7 @@ class ExecutableInPackage(_Listed):
         super().__init__([executable, package])
 
     def perform(self, context: LaunchContext) -> str:
-        """The path. Raises PackageNotFound, NoExecutable."""
+        """The path. Raises PackageNotFound, NoSuchExecutable."""
         from ros2_on_pip.packages import executable as find
 
         name, package = self.performed_texts(context)
@@ -298,35 +346,40 @@ class LocalSubstitution(Substitution):
     """What an event brings along, such as `event.reason`."""
 
     def __init__(self, expression: str, description: str | None = None) -> None:
-        self.expression = expression
+        if not isinstance(expression, str):
+            raise TypeError(
+                "expression of LocalSubstitution must be a text, such as 'event.reason', not"
+                f" {expression!r}"
+            )
+        self.expression, self.description = expression, description
 
-    def perform(self, context: LaunchContext) -> str:
-        """The value as a text. Raises SubstitutionFailure."""
-        found: Any = context.locals
-        for name in self.expression.split("."):
-            if not hasattr(found, name):
-                raise SubstitutionFailure(
-                    f"there is no '{self.expression}' here: only what an event handler starts"
-                    " knows its event"
-                )
-            found = getattr(found, name)
-        return str(found)
+    def perform(self, context: LaunchContext) -> Any:
+        """The value as it is; a text can only be made of texts. Raises SubstitutionFailure."""
+        try:
+            return eval(f"known.{self.expression}", {"known": context.locals})
+        except AttributeError:
+            raise SubstitutionFailure(
+                f"there is no '{self.expression}' here: only what an event handler starts"
+                " knows its event"
+            ) from None
+        except Exception as fault:
+            raise SubstitutionFailure(f"'{self.expression}': {fault}") from None
 
     def describe(self) -> str:
-        """With its expression."""
-        return f"LocalVar('{self.expression}')"
+        """With its expression, or what was said about it."""
+        return f"LocalVar('{self.description or self.expression}')"
 
 
 class EqualsSubstitution(_Listed):
-    """Whether two texts are equal, `true` or `false`."""
+    """Whether two values are equal, `true` or `false`."""
 
-    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
-        super().__init__([left, right])
+    def __init__(self, left: Any, right: Any) -> None:
+        """Each side may be any value: None is the empty text, and True is `true`."""
+        super().__init__([_as_text(left), _as_text(right)])
 
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`. Raises SubstitutionFailure."""
-        left, right = self.performed_texts(context)
-        return _word(left == right or _same_truth(left, right) or _same_number(left, right))
+        return _word(_same(*self.performed_texts(context)))
 
 
 class NotEqualsSubstitution(EqualsSubstitution):
@@ -346,7 +399,7 @@ class NotSubstitution(_Listed):
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`. Raises SubstitutionFailure."""
         (value,) = self.performed_texts(context)
-        return _word(not truth(value, "what stands after not"))
+        return _word(not yaml_truth(value, "what stands after not"))
 
 
 class AndSubstitution(_Listed):
@@ -357,7 +410,8 @@ class AndSubstitution(_Listed):
 
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`. Raises SubstitutionFailure."""
-        return _word(all([truth(t, "each side of and") for t in self.performed_texts(context)]))
+        texts = self.performed_texts(context)
+        return _word(all([yaml_truth(text, "each side of and") for text in texts]))
 
 
 class OrSubstitution(AndSubstitution):
@@ -365,7 +419,8 @@ class OrSubstitution(AndSubstitution):
 
     def perform(self, context: LaunchContext) -> str:
         """`true` or `false`. Raises SubstitutionFailure."""
-        return _word(any([truth(t, "each side of or") for t in self.performed_texts(context)]))
+        texts = self.performed_texts(context)
+        return _word(any([yaml_truth(text, "each side of or") for text in texts]))
 
 
 class IfElseSubstitution(_Listed):
@@ -377,12 +432,14 @@ class IfElseSubstitution(_Listed):
         if_value: SomeSubstitutionsType = "",
         else_value: SomeSubstitutionsType = "",
     ) -> None:
+        if if_value == else_value == "":
+            raise Refused("IfElseSubstitution needs a text: if_value='...', or else_value='...'")
         super().__init__([condition, if_value, else_value])
 
     def perform(self, context: LaunchContext) -> str:
         """The first text where the condition is true, else the second."""
         condition, yes, no = self.texts
-        chosen = truth(performed(context, condition), "the condition of IfElseSubstitution")
+        chosen = yaml_truth(performed(context, condition), "the condition of IfElseSubstitution")
         return performed(context, yes if chosen else no)
 
 
@@ -390,13 +447,20 @@ def _word(value: bool) -> str:
     return "true" if value else "false"
 
 
-def _same_truth(*texts: str) -> bool:
-    words = {text.strip().lower() for text in texts}
-    return words <= set(TRUE) or words <= set(FALSE)
+def _as_text(value: Any) -> Any:
+    if is_substitution(value):
+        return value
+    if value is None:
+        return ""
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _same_number(left: str, right: str) -> bool:
+def _same(left: str, right: str) -> bool:
+    """Two truths and two numbers by what they mean, anything else by its letters."""
+    truths = [text.lower() in TRUE for text in (left, right) if text.lower() in (*TRUE, *FALSE)]
+    if len(truths) == 2:
+        return truths[0] == truths[1]
     try:
         return math.isclose(float(left), float(right))
     except ValueError:
-        return False
+        return left == right

@@ -8,18 +8,18 @@ from dataclasses import dataclass
 
 from ros2_on_pip.launching import elsewhere, substitutions
 from ros2_on_pip.launching.substitution import Parts, Substitution, TextSubstitution
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 
 QUOTES = "'\"`"
 ESCAPED = re.compile(r"\\.")
 NAME = re.compile(r"\s*([^\s()$'\"]*)")
 
 
-class BadSubstitution(Problem):
+class BadSubstitution(CommandProblem):
     """A `$(...)` that cannot be read; the caller adds the place."""
 
 
-class UnknownSubstitution(Problem):
+class UnknownSubstitution(CommandProblem):
     """Jazzy fills it in, and we do not; the caller adds the place."""
 
     def __init__(self, name: str) -> None:
@@ -31,7 +31,7 @@ Make = Callable[..., Substitution]
 
 
 @dataclass(frozen=True)
-class Kind:
+class SubstitutionKind:
     """How a `$(name ...)` is made, and how many words it takes."""
 
     make: Make
@@ -53,27 +53,29 @@ def _command(command: Parts, on_stderr: Parts | None = None) -> Substitution:
 
 
 KINDS = {
-    "and": Kind(substitutions.AndSubstitution, 2, 2, "A B"),
-    "anon": Kind(substitutions.AnonName, 1, 1, "NAME"),
-    "command": Kind(_command, 1, 2, "'WORDS'"),
-    "dirname": Kind(substitutions.ThisLaunchFileDir, 0, 0, ""),
-    "env": Kind(_env, 1, 2, "NAME"),
-    "equals": Kind(substitutions.EqualsSubstitution, 2, 2, "A B"),
-    "eval": Kind(substitutions.PythonExpression, 1, 1, "'EXPRESSION'"),
-    "exec-in-pkg": Kind(substitutions.ExecutableInPackage, 2, 2, "EXECUTABLE PACKAGE"),
-    "file-content": Kind(substitutions.FileContent, 1, 1, "FILE"),
-    "filename": Kind(substitutions.ThisLaunchFile, 0, 0, ""),
-    "find-exec": Kind(lambda name: substitutions.FindExecutable(name=name), 1, 1, "NAME"),
-    "find-pkg-prefix": Kind(substitutions.FindPackagePrefix, 1, 1, "PACKAGE"),
-    "find-pkg-share": Kind(substitutions.FindPackageShare, 1, 1, "PACKAGE"),
-    "if": Kind(substitutions.IfElseSubstitution, 2, 3, "CONDITION A B"),
-    "launch_log_dir": Kind(substitutions.LaunchLogDir, 0, 0, ""),
-    "log_dir": Kind(substitutions.LaunchLogDir, 0, 0, ""),
-    "not": Kind(substitutions.NotSubstitution, 1, 1, "A"),
-    "not-equals": Kind(substitutions.NotEqualsSubstitution, 2, 2, "A B"),
-    "optenv": Kind(lambda name, default="": _env(name, default), 1, 2, "NAME"),
-    "or": Kind(substitutions.OrSubstitution, 2, 2, "A B"),
-    "var": Kind(_var, 1, 2, "NAME"),
+    "and": SubstitutionKind(substitutions.AndSubstitution, 2, 2, "A B"),
+    "anon": SubstitutionKind(substitutions.AnonName, 1, 1, "NAME"),
+    "command": SubstitutionKind(_command, 1, 2, "'WORDS'"),
+    "dirname": SubstitutionKind(substitutions.ThisLaunchFileDir, 0, 0, ""),
+    "env": SubstitutionKind(_env, 1, 2, "NAME"),
+    "equals": SubstitutionKind(substitutions.EqualsSubstitution, 2, 2, "A B"),
+    "eval": SubstitutionKind(substitutions.PythonExpression, 1, 1, "'EXPRESSION'"),
+    "exec-in-pkg": SubstitutionKind(substitutions.ExecutableInPackage, 2, 2, "EXECUTABLE PACKAGE"),
+    "file-content": SubstitutionKind(substitutions.FileContent, 1, 1, "FILE"),
+    "filename": SubstitutionKind(substitutions.ThisLaunchFile, 0, 0, ""),
+    "find-exec": SubstitutionKind(
+        lambda name: substitutions.FindExecutable(name=name), 1, 1, "NAME"
+    ),
+    "find-pkg-prefix": SubstitutionKind(substitutions.FindPackagePrefix, 1, 1, "PACKAGE"),
+    "find-pkg-share": SubstitutionKind(substitutions.FindPackageShare, 1, 1, "PACKAGE"),
+    "if": SubstitutionKind(substitutions.IfElseSubstitution, 2, 3, "CONDITION A B"),
+    "launch_log_dir": SubstitutionKind(substitutions.LaunchLogDir, 0, 0, ""),
+    "log_dir": SubstitutionKind(substitutions.LaunchLogDir, 0, 0, ""),
+    "not": SubstitutionKind(substitutions.NotSubstitution, 1, 1, "A"),
+    "not-equals": SubstitutionKind(substitutions.NotEqualsSubstitution, 2, 2, "A B"),
+    "optenv": SubstitutionKind(lambda name, default="": _env(name, default), 1, 2, "NAME"),
+    "or": SubstitutionKind(substitutions.OrSubstitution, 2, 2, "A B"),
+    "var": SubstitutionKind(_var, 1, 2, "NAME"),
 }
 
 

@@ -20,7 +20,7 @@ class BadExpression(BagError):
 
 
 @dataclass(frozen=True)
-class Choice:
+class TopicFilter:
     """What is asked for, and what is left out of it. With nothing asked for, all are meant."""
 
     names: Sequence[str] = ()
@@ -29,6 +29,9 @@ class Choice:
     without: Sequence[str] = ()
     without_types: Sequence[str] = ()
     without_regex: str = ""
+    whole_names: bool = False
+    """Whether an expression must match a whole name, as when a bag is read, and not a part of it,
+    as when one is recorded."""
 
     def __post_init__(self) -> None:
         """Raises BadExpression."""
@@ -45,9 +48,13 @@ class Choice:
     def _asked(self, name: str, type_name: str) -> bool:
         if not (self.names or self.types or self.regex):
             return True
-        found = bool(self.regex and re.search(self.regex, name))
+        found = self._matches(self.regex, name)
         return found or name in self.names or type_name in self.types
 
     def _left_out(self, name: str, type_name: str) -> bool:
-        found = bool(self.without_regex and re.search(self.without_regex, name))
+        found = self._matches(self.without_regex, name)
         return found or name in self.without or type_name in self.without_types
+
+    def _matches(self, regex: str, name: str) -> bool:
+        find = re.fullmatch if self.whole_names else re.search
+        return bool(regex and find(regex, name))

@@ -23,8 +23,8 @@ class Definition:
 def definition_of(type_name: str) -> Definition:
     """The definition of e.g. `std_msgs/msg/String`; an empty one where it was not installed.
 
-    ROS installs two files with each type: its text, and a description that lists the hash of the
-    type (REP 2016) and of every type in it.
+    ROS installs two files with each type. One is its text. The other is a description that lists
+    the hash of the type (REP 2016) and of every type in it.
     """
     try:
         description = json.loads(_file(type_name, ".json").read_text("utf-8"))

@@ -57,7 +57,7 @@ class NoMetadata(BagError):
         )
 
 
-class Damaged(BagError):
+class DamagedBag(BagError):
     """A file of the bag is not what it should be."""
 
     def __init__(self, path: Path, reason: str) -> None:
@@ -74,7 +74,7 @@ class BagThere(BagError):
         super().__init__(f"Output folder '{folder}' already exists. Choose another one with -o")
 
 
-class CannotWrite(BagError):
+class BagNotWritable(BagError):
     """The disk is full, or the place is not ours."""
 
     def __init__(self, folder: Path, fault: Exception) -> None:
@@ -94,7 +94,7 @@ class TooSmall(BagError):
         )
 
 
-class BadName(BagError):
+class BadBagPath(BagError):
     """SQLite takes these letters of a path for its own."""
 
     def __init__(self, folder: Path) -> None:

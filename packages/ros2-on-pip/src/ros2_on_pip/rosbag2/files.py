@@ -1,7 +1,7 @@
 """The files of a bag, written by `rosbags`: one at a time, each whole at every moment.
 
-`rosbags` names a file after the bag's folder, and ends it when the bag ends. rosbag2 numbers its
-files; and a disk may be full, or the power gone, before the end. So here a file is named as
+`rosbags` names a file after the bag's folder, and ends it when the bag ends. But `rosbag2` numbers
+its files. And a disk may be full, or the power gone, before the end. So here a file is named as
 rosbag2 does it, and what was written stays readable (`mended`).
 """
 
@@ -20,7 +20,7 @@ from rosbags.rosbag2 import CompressionMode
 from rosbags.rosbag2.storage_mcap import Channel, McapWriter, Schema
 from rosbags.rosbag2.storage_sqlite3 import Sqlite3Writer
 
-from ros2_on_pip.rosbag2.errors import BadName
+from ros2_on_pip.rosbag2.errors import BadBagPath
 from ros2_on_pip.rosbag2.metadata import VERSION, Metadata, as_plain
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -49,6 +49,9 @@ class StorageFile(Protocol):
 
     def write(self, connection: Any, timestamp: int, data: bytes | memoryview) -> None:
         """One message. Raises OSError, sqlite3.Error."""
+
+    def forget(self, topic: str) -> None:
+        """No message of this topic comes any more. Raises OSError, sqlite3.Error."""
 
     def settle(self) -> None:
         """Whatever was written is on the disk. Raises OSError, sqlite3.Error."""
@@ -92,6 +95,9 @@ class _Mcap(McapWriter):
     def settle(self) -> None:
         if self.chunk.bio.tell():
             self.close_chunk()
+
+    def forget(self, topic: str) -> None:
+        """What was written stays in the file."""
 
     def adopt(self, content: bytes) -> None:
         """Write a chunk of another writer, and know from now on what it holds."""
@@ -145,7 +151,7 @@ class _Sqlite(Sqlite3Writer):
 
     def __init__(self, file: Path) -> None:
         if set("?#%") & set(str(file.absolute())):
-            raise BadName(file.parent)
+            raise BadBagPath(file.parent)
         super().__init__(cast(Path, _Named(file)), CompressionMode.NONE)
         # As rosbag2: to wait for the disk at each transaction takes longer than a message.
         self.conn.execute("PRAGMA synchronous=OFF")
@@ -153,9 +159,13 @@ class _Sqlite(Sqlite3Writer):
     def settle(self) -> None:
         self.conn.commit()
 
+    def forget(self, topic: str) -> None:
+        """Its messages stay, and nobody finds them without it."""
+        self.conn.execute("DELETE FROM topics WHERE name = ?", (topic,))
+
 
 def new_file(file: Path, storage: str) -> StorageFile:
-    """A file for `storage`, mcap or sqlite3. Raises OSError, sqlite3.Error, BadName."""
+    """A file for `storage`, mcap or sqlite3. Raises OSError, sqlite3.Error, BadBagPath."""
     return _Mcap(file) if storage == "mcap" else _Sqlite(file)
 
 

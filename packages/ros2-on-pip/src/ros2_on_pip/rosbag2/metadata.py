@@ -31,7 +31,7 @@ class Topic:
 
 
 @dataclass(frozen=True)
-class Span:
+class MessageSpan:
     """Messages between the first and the last stamp, in nanoseconds since 1970."""
 
     count: int = 0
@@ -43,14 +43,14 @@ class Span:
         """From the first to the last."""
         return max(0, self.last_ns - self.first_ns)
 
-    def with_one(self, time_ns: int) -> Span:
+    def with_one(self, time_ns: int) -> MessageSpan:
         """One message more."""
         first_ns, last_ns = min(self.first_ns, time_ns), max(self.last_ns, time_ns)
-        return Span(self.count + 1, first_ns, last_ns)
+        return MessageSpan(self.count + 1, first_ns, last_ns)
 
-    def __add__(self, other: Span) -> Span:
+    def __add__(self, other: MessageSpan) -> MessageSpan:
         first_ns, last_ns = min(self.first_ns, other.first_ns), max(self.last_ns, other.last_ns)
-        return Span(self.count + other.count, first_ns, last_ns)
+        return MessageSpan(self.count + other.count, first_ns, last_ns)
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class File:
     """A file of a bag; `name` is relative to the bag's folder."""
 
     name: str
-    span: Span = Span()
+    span: MessageSpan = MessageSpan()
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Metadata:
     storage: str = ""
     topics: tuple[Topic, ...] = ()
     files: tuple[File, ...] = ()
-    span: Span = Span()
+    span: MessageSpan = MessageSpan()
     compression_format: str = ""
     compression_mode: str = ""
     custom: Mapping[str, str] = field(default_factory=dict)
@@ -106,7 +106,7 @@ def as_plain(metadata: Metadata) -> dict[str, Any]:
     }
 
 
-def _span(span: Span) -> dict[str, Any]:
+def _span(span: MessageSpan) -> dict[str, Any]:
     return {
         "duration": {"nanoseconds": span.duration_ns},
         "starting_time": {"nanoseconds_since_epoch": span.first_ns},
@@ -151,13 +151,13 @@ def _files(plain: Mapping[str, Any]) -> Sequence[File]:
     """Before version 5 only the names were kept; before version 4 with the bag's folder."""
     names = [Path(name).name for name in plain["relative_file_paths"]]
     spans = {Path(each["path"]).name: _read_span(each) for each in plain.get("files") or ()}
-    return [File(name, spans.get(name, Span())) for name in names]
+    return [File(name, spans.get(name, MessageSpan())) for name in names]
 
 
-def _read_span(plain: Mapping[str, Any]) -> Span:
+def _read_span(plain: Mapping[str, Any]) -> MessageSpan:
     count, duration_ns = int(plain["message_count"]), int(plain["duration"]["nanoseconds"])
     first_ns = int(plain["starting_time"]["nanoseconds_since_epoch"])
-    return Span(count, first_ns, first_ns + duration_ns) if count else Span()
+    return MessageSpan(count, first_ns, first_ns + duration_ns) if count else MessageSpan()
 
 
 def _read_topic(plain: Mapping[str, Any]) -> Topic:

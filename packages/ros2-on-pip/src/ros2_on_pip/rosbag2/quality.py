@@ -60,7 +60,7 @@ def _time(duration: Any) -> Any:
     return QosTime(*divmod(duration.nanoseconds, 10**9))
 
 
-def asked(topic: str, offers: Sequence[Any]) -> tuple[Any, list[str]]:
+def requested_qos(topic: str, offers: Sequence[Any]) -> tuple[Any, list[str]]:
     """The QoSProfile to record a topic with, from those of its publishers, and what to say of it.
 
     The better quality where all offer it; else the lesser one, which reaches each of them.

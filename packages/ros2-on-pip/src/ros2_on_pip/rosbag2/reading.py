@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from ros2_on_pip.rosbag2.errors import Damaged, NoBag, NoMetadata, reason_of
+from ros2_on_pip.rosbag2.errors import DamagedBag, NoBag, NoMetadata, reason_of
 from ros2_on_pip.rosbag2.metadata import NAME, ROOT, File, Metadata, from_plain
 from ros2_on_pip.rosbag2.packing import BROKEN
 from ros2_on_pip.rosbag2.reindexing import (
@@ -42,7 +42,10 @@ class BagReader:
     def messages(
         self, takes: Callable[[str, str], bool] = lambda _name, _type: True, start_ns: int = 0
     ) -> Iterator[Message]:
-        """Of the topics whose name and type `takes` likes, from `start_ns` on. Raises Damaged."""
+        """Of the topics whose name and type `takes` likes, from `start_ns` on.
+
+        Raises DamagedBag.
+        """
         chosen = [c for c in self._reader.connections if takes(c.topic, c.msgtype)]
         if not chosen:
             return
@@ -50,14 +53,14 @@ class BagReader:
             for connection, time_ns, raw in self._reader.messages(chosen, start=start_ns):
                 yield connection.topic, time_ns, bytes(raw)
         except _faults() as fault:
-            raise Damaged(self.path, reason_of(fault)) from fault
+            raise DamagedBag(self.path, reason_of(fault)) from fault
 
 
 @contextmanager
 def opened(path: Path, asked: str = "") -> Iterator[BagReader]:
     """The bag at `path`, a folder or one of its files. `asked`: the storage that it must have.
 
-    Raises NoBag, NoMetadata, Damaged, UnknownStorage, OtherStorage.
+    Raises NoBag, NoMetadata, DamagedBag, UnknownStorage, OtherStorage.
     """
     reader = open_bag(path, asked)
     try:
@@ -77,7 +80,7 @@ def open_bag(path: Path, asked: str = "") -> BagReader:
         reader.open()
         return BagReader(path, reader, _metadata(path, reader))
     except _faults() as fault:
-        raise Damaged(path, reason_of(fault)) from fault
+        raise DamagedBag(path, reason_of(fault)) from fault
 
 
 def _require(path: Path) -> None:
@@ -131,7 +134,7 @@ def _metadata(path: Path, reader: Any) -> Metadata:
 
 
 def read_metadata(folder: Path) -> Metadata:
-    """What metadata.yaml says. Raises NoBag, NoMetadata, Damaged."""
+    """What metadata.yaml says. Raises NoBag, NoMetadata, DamagedBag."""
     import yaml
 
     _require(folder)
@@ -139,6 +142,6 @@ def read_metadata(folder: Path) -> Metadata:
         text = (folder / NAME).read_text(encoding="utf-8")
         return from_plain(yaml.safe_load(text)[ROOT]).measured(folder)
     except FileNotFoundError as fault:
-        raise Damaged(folder, f"{Path(fault.filename).name} is missing") from fault
+        raise DamagedBag(folder, f"{Path(fault.filename).name} is missing") from fault
     except (OSError, ValueError, KeyError, TypeError, AttributeError, yaml.YAMLError) as fault:
-        raise Damaged(folder, f"{NAME} cannot be read: {reason_of(fault)}") from fault
+        raise DamagedBag(folder, f"{NAME} cannot be read: {reason_of(fault)}") from fault

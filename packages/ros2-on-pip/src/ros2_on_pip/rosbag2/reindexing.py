@@ -13,7 +13,7 @@ from typing import Any
 
 from ros2_on_pip.rosbag2.errors import NoBag, OtherStorage, UnknownStorage, reason_of
 from ros2_on_pip.rosbag2.files import mended
-from ros2_on_pip.rosbag2.metadata import ENDINGS, NAME, File, Metadata, Span, Topic, as_yaml
+from ros2_on_pip.rosbag2.metadata import ENDINGS, NAME, File, MessageSpan, Metadata, Topic, as_yaml
 from ros2_on_pip.rosbag2.packing import (
     BROKEN,
     ENDING,
@@ -52,7 +52,7 @@ def reindex(folder: Path, asked: str = "") -> Metadata:
         storage=storage_of(files[0]),
         topics=_together(contents),
         files=tuple(content.file for content in contents),
-        span=sum((content.file.span for content in contents), Span()),
+        span=sum((content.file.span for content in contents), MessageSpan()),
         compression_mode=_mode(by_file, contents),
         compression_format=ZSTD if _mode(by_file, contents) else "",
     )
@@ -145,11 +145,11 @@ def unpacked(file: Path) -> Iterator[Path]:
         yield place
 
 
-def span_of(reader: Any) -> Span:
+def span_of(reader: Any) -> MessageSpan:
     """How many messages an open reader has, and when they came."""
     if not reader.message_count:
-        return Span()
-    return Span(reader.message_count, reader.start_time, reader.end_time - 1)
+        return MessageSpan()
+    return MessageSpan(reader.message_count, reader.start_time, reader.end_time - 1)
 
 
 def topics_of(reader: Any) -> tuple[Topic, ...]:

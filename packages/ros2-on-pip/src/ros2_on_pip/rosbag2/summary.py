@@ -33,8 +33,8 @@ def events_in(reader: BagReader) -> Seen:
 def _call(raw: bytes) -> tuple[bool, bytes]:
     """Whether it is an answer, and who asked: the client and the number of its question.
 
-    The event begins with its info: a byte for the kind, a stamp, 16 bytes of the client's id, and
-    the number, which begins at a multiple of 8 (CDR).
+    The event begins with its info. That is a byte for the kind, a stamp, 16 bytes of the client's
+    id, and the number. The number begins at a multiple of 8 (CDR).
     """
     body = memoryview(raw)[4:]
     return body[0] in RESPONSES, bytes(body[12:28]) + bytes(body[32:40])

@@ -12,14 +12,14 @@ from pathlib import Path
 from typing import Any, Literal
 
 from ros2_on_pip.rosbag2.definition import definition_of
-from ros2_on_pip.rosbag2.errors import BagError, BagThere, CannotWrite, TooSmall
+from ros2_on_pip.rosbag2.errors import BagError, BagNotWritable, BagThere, TooSmall
 from ros2_on_pip.rosbag2.files import LEAST_SPLIT, StorageFile, new_file
 from ros2_on_pip.rosbag2.metadata import (
     ENDINGS,
     VERSION,
     File,
+    MessageSpan,
     Metadata,
-    Span,
     Topic,
     as_plain,
 )
@@ -40,7 +40,7 @@ FAULTS = (OSError, sqlite3.Error)
 
 
 @dataclass(frozen=True)
-class Plan:
+class BagWriterOptions:
     """How a bag is written. Zero stands for no limit."""
 
     storage: str = "mcap"
@@ -61,15 +61,15 @@ class Plan:
 class BagWriter:
     """A bag that is being written. `close` completes it; until then it has no metadata.yaml."""
 
-    def __init__(self, folder: Path, plan: Plan) -> None:
-        """Make the folder. Raises BagThere, CannotWrite, TooSmall, BadName."""
+    def __init__(self, folder: Path, plan: BagWriterOptions) -> None:
+        """Make the folder. Raises BagThere, BagNotWritable, TooSmall, BadBagPath."""
         plan.require_sense()
         self.folder, self.plan = folder, plan
         self._topics: dict[str, Topic] = {}
         self._connections: dict[str, Any] = {}
         self._counts: dict[str, int] = {}
         self._files: list[File] = []
-        self._span = Span()
+        self._span = MessageSpan()
         self._last_id = 0
         self._failed = self._closed = False
         self._make_folder()
@@ -82,7 +82,7 @@ class BagWriter:
             self.folder.mkdir(parents=True)
             self._reserve()
         except OSError as fault:
-            raise CannotWrite(self.folder, fault) from fault
+            raise BagNotWritable(self.folder, fault) from fault
 
     def _reserve(self) -> None:
         """Keep room for the end: on a full disk, metadata.yaml and the last index fit in there."""
@@ -99,13 +99,16 @@ class BagWriter:
         return topic in self._topics
 
     def remove_topic(self, topic: str) -> None:
-        """Leave it out of metadata.yaml; a topic with messages stays."""
-        if not self._counts.get(topic, 1):
-            for kept in (self._topics, self._connections, self._counts):
-                kept.pop(topic)
+        """Leave it out of the list of contents, with the messages that it has.
+
+        Raises BagNotWritable, and KeyError for a topic that was not added.
+        """
+        for kept in (self._topics, self._connections, self._counts):
+            kept.pop(topic)
+        self._guarded(lambda: self._storage.forget(topic))
 
     def add_topic(self, topic: Topic) -> None:
-        """Before its first message. A second time nothing happens. Raises CannotWrite."""
+        """Before its first message. A second time nothing happens. Raises BagNotWritable."""
         if topic.name not in self._topics:
             definition = definition_of(topic.type)
             self._topics[topic.name] = replace(topic, hash=topic.hash or definition.hash)
@@ -115,7 +118,7 @@ class BagWriter:
     def write(self, topic: str, time_ns: int, data: bytes) -> None:
         """One message, as ROS serialises it, and when it came.
 
-        Raises CannotWrite, and KeyError for a topic that was not added.
+        Raises BagNotWritable, and KeyError for a topic that was not added.
         """
         connection = self._connections[topic]
         self._guarded(lambda: self._write(connection, time_ns, data))
@@ -123,7 +126,7 @@ class BagWriter:
         self._span = self._span.with_one(time_ns)
 
     def settle(self) -> None:
-        """What was written survives from here on, whatever happens. Raises CannotWrite."""
+        """What was written survives from here on, whatever happens. Raises BagNotWritable."""
         self._guarded(self._storage.settle)
 
     def keep_settled(self) -> None:
@@ -131,13 +134,13 @@ class BagWriter:
         self._guarded(self._settle_if_due)
 
     def split(self) -> None:
-        """The next message goes into a new file. Raises CannotWrite."""
+        """The next message goes into a new file. Raises BagNotWritable."""
         self._guarded(self._split)
 
     def close(self) -> None:
         """Complete the bag; a second time nothing happens.
 
-        Where writing has failed, what could be written is made a whole bag. Raises CannotWrite.
+        Where writing has failed, what could be written is made a whole bag. Raises BagNotWritable.
         """
         if self._closed:
             return
@@ -157,7 +160,7 @@ class BagWriter:
                 self._save_what_is_left()
             if isinstance(fault, BagError):
                 raise
-            raise CannotWrite(self.folder, fault) from fault
+            raise BagNotWritable(self.folder, fault) from fault
 
     def _save_what_is_left(self) -> None:
         with suppress(*FAULTS):
@@ -169,12 +172,12 @@ class BagWriter:
         """The next file."""
         number, ending = len(self._files), ENDINGS[self.plan.storage]
         file = self.folder / f"{self.folder.name}_{number}{ending}"
-        self._span, self._bytes, self._types = Span(), 0, set[str]()
+        self._span, self._bytes, self._types = MessageSpan(), 0, set[str]()
         self._settled_s = time.monotonic()
         try:
             self._storage: StorageFile = new_file(file, self.plan.storage)
         except FAULTS as fault:
-            raise CannotWrite(self.folder, fault) from fault
+            raise BagNotWritable(self.folder, fault) from fault
         for connection in self._connections.values():
             self._introduce(connection)
 
@@ -226,7 +229,7 @@ class BagWriter:
         plan, span = self.plan, self._span
         if not span.count:
             return False
-        late = time_ns - span.first_ns >= plan.max_duration_s * 1e9 > 0
+        late = time_ns - span.first_ns > plan.max_duration_s * 1e9 > 0
         return late or self._bytes >= plan.max_size > 0
 
     def _split(self) -> None:
@@ -247,13 +250,14 @@ class BagWriter:
 
     def _metadata(self) -> Metadata:
         mode = self.plan.compression.upper()
+        span = sum((file.span for file in self._files), MessageSpan())
         return Metadata(
             storage=self.plan.storage,
             topics=tuple(
                 replace(topic, count=self._counts[name]) for name, topic in self._topics.items()
             ),
             files=tuple(self._files),
-            span=sum((file.span for file in self._files), Span()),
+            span=replace(span, count=sum(self._counts.values())),
             compression_format="" if mode == "NONE" else ZSTD,
             compression_mode="" if mode == "NONE" else mode,
             custom=self.plan.custom,

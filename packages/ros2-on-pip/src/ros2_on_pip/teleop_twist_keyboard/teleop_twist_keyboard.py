@@ -29,7 +29,9 @@ class Teleop(Node):
         self.frame_id = self.declare_parameter("frame_id", "").value
         self.again = 0
         self.hands = Hands(float(speed_m_s), float(turn_rad_s))
-        self.voice = self.create_publisher(TwistStamped if self.stamped else Twist, "cmd_vel", 10)
+        self.publisher = self.create_publisher(
+            TwistStamped if self.stamped else Twist, "cmd_vel", 10
+        )
 
     def press(self, key: str) -> None:
         """Follow a key, and tell the robot."""
@@ -39,7 +41,7 @@ class Teleop(Node):
 
     def tell_again(self) -> None:
         """The newest key once more, as soon as somebody hears it."""
-        if self.again and self.voice.get_subscription_count():
+        if self.again and self.publisher.get_subscription_count():
             self.again -= 1
             self.tell(self.hands.steering)
 
@@ -48,10 +50,10 @@ class Teleop(Node):
         twist = Twist()
         twist.linear.x = steering.forward_m_s
         twist.angular.z = steering.turn_rad_s
-        self.voice.publish(self.with_stamp(twist) if self.stamped else twist)
+        self.publisher.publish(self.with_stamp(twist) if self.stamped else twist)
         said = f"ahead {steering.forward_m_s:5.2f} m/s   turn {steering.turn_rad_s:5.2f} rad/s"
         beside = f"keys: {self.hands.speed_m_s:.2f} m/s, {self.hands.turn_rad_s:.2f} rad/s"
-        if not self.voice.get_subscription_count():
+        if not self.publisher.get_subscription_count():
             beside = "nobody hears it: does the robot run?"
         print(f"\r{said}   {beside:40}", end="", flush=True)
 

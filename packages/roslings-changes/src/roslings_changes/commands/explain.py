@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from ros2_on_pip.errors import EXIT_OF_OUTCOME, OK, RoslingsError
 from roslings import course
+from roslings.commands.invocation import program
 from roslings.commands.options import package_options, whose_option
-from roslings.typed import program
 
 if TYPE_CHECKING:
     from roslings.course import Lab
@@ -52,7 +52,7 @@ def add_options(word: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Ask; in a pipe, print the questions and the answers. Raises DoesNotPass."""
-    from roslings.platforms import handed_in
+    from roslings.grading.platforms import handed_in
     from roslings_changes.questions import questions
 
     lab = _lab(options)
@@ -73,7 +73,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _lab(options: argparse.Namespace) -> Lab:
     """By the card of whose package it is."""
-    from roslings.own_card import own_lab
+    from roslings.workspace.own_card import own_lab
 
     if options.as_stranger and not options.whose:
         return course.lab(options.lab)
@@ -83,8 +83,8 @@ def _lab(options: argparse.Namespace) -> Lab:
 @contextmanager
 def _grading(lab: Lab, strangers: bool) -> Iterator[Grade]:
     """What grades one package after the other."""
-    from roslings.checking import any_seed, ready, ready_again_and_again
-    from roslings.experiment import Choices, insist_on_wall
+    from roslings.experiment import MeasuringOptions, insist_on_wall
+    from roslings.grading.checking import any_seed, ready, ready_again_and_again
 
     if strangers:
         insist_on_wall(lab)
@@ -93,7 +93,7 @@ def _grading(lab: Lab, strangers: bool) -> Iterator[Grade]:
     def grade(package: Path) -> Verdict:
         began_ns = time.monotonic_ns()
         if strangers:
-            with ready(lab, Choices(any_seed(), strangers=True)) as begun:
+            with ready(lab, MeasuringOptions(any_seed(), strangers=True)) as begun:
                 return begun.grade(package, began_ns, quiet=True).verdict
         return next(again).grade(package, began_ns, quiet=True).verdict
 
@@ -104,11 +104,11 @@ def _grading(lab: Lab, strangers: bool) -> Iterator[Grade]:
 
 
 def _print(found: Iterator[Question]) -> None:
-    from roslings_changes.asking import answered, asked
+    from roslings_changes.asking import answered, question_lines
 
     number = 0
     for number, question in enumerate(found, 1):
-        print("\n".join(["", *asked(number, question), *answered(question)]), flush=True)
+        print("\n".join(["", *question_lines(number, question), *answered(question)]), flush=True)
     if not number:
         print(NOTHING)
 

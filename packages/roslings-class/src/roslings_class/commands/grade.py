@@ -129,9 +129,9 @@ def _points(text: str) -> float:
 
 def run(options: argparse.Namespace) -> int:
     """Grade many submissions; 3 where some are still inconclusive."""
-    from roslings_class.command import Choices, grade
+    from roslings_class.command import GradeOptions, grade
 
-    choices = Choices(
+    choices = GradeOptions(
         options.lab,
         options.submissions,
         options.out,

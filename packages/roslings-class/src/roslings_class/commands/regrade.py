@@ -28,9 +28,9 @@ def add_options(word: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Judge saved evidence again, of one check or of a whole class; nothing is run."""
+    from roslings.grading.saving import Graded
     from roslings.judge import judge
     from roslings.report.evidence_file import read_evidence
-    from roslings.saving import Graded
     from roslings_class.gradebook import lab_of
     from roslings_class.regrade import regrade_all
 
@@ -69,7 +69,7 @@ class WordOfSomebody(RoslingsError):
 
 def insist_on_no_platform(options: argparse.Namespace) -> None:
     """What is not signed counts nowhere. Raises WordOfSomebody."""
-    from roslings.platforms import shapes_asked
+    from roslings.grading.platforms import shapes_asked
 
     for option in shapes_asked(options):
         raise WordOfSomebody(option)

@@ -26,7 +26,7 @@ def add_options(word: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Make the edition and the wheel, and hand them out until Ctrl-C."""
     from roslings_class.classroom import made_in, serving, told
-    from roslings_rover.asked import listening
+    from roslings_rover.stop_signal import listening
 
     with tempfile.TemporaryDirectory(prefix="roslings-") as scratch:
         print("Making the students' edition and its wheel ...", flush=True)

@@ -7,9 +7,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path, PurePosixPath
 from uuid import NAMESPACE_URL, uuid5
 
+from ros2_on_pip import language
+from ros2_on_pip.language import said
 from ros2_on_pip.typed_paths import from_here
 from roslings import course
 from roslings.course import Lab
+from roslings.course.titles import lab_title
 from roslings_class.course_files import CourseFiles, course_files
 from roslings_class.export.errors import CannotExport
 from roslings_class.export.systems import OF_SYSTEM, SYSTEMS, System
@@ -23,11 +26,12 @@ PARTS = ("packages", "labs", "graders", "days")
 FILES = ("roslings", "pyproject.toml", "constraints.txt", "LICENSE", "LICENSE-lessons.md")
 DAYS = ("path.yaml",)
 """Of the lessons only the order; their notebooks are for students."""
+README = "README.md"
 HIDDEN = "graders/hidden_checks.py"
 RUNS = (".sh", ".py", "run_autograder", "roslings")
 """Endings of files that are run as they are."""
 DOT, AS_IT_IS = "dot-", ".in"
-"""A template's name begins so for a file that begins with a dot, and ends so for a program that
+"""A template's name begins so for a file that begins with a dot. It ends so for a program that
 belongs to the platform, not to us."""
 
 
@@ -49,32 +53,46 @@ def export(system_name: str, lab: Lab, to: Path) -> list[str]:
     write_own_files(system, lab, to)
     _insist_on_no_answers(to, lab)
     return [
-        f"What {system.about} needs for {lab.name!r} is in {from_here(to)}.",
-        f"Upload: {system.upload}.",
-        f"The wall: {system.wall}.",
-        f"Read {from_here(to / 'README.md')}: it tells each step.",
+        *_told(system, lab, to),
         *found.remarks(names),
     ]
+
+
+def _told(system: System, lab: Lab, to: Path) -> Iterator[str]:
+    """Where it is, what goes where, and what keeps a student's code from the grade there."""
+    made, place = "What {system} needs for {lab!r} is in {folder}.", from_here(to)
+    yield said("export.made", made, system=system.about, lab=lab.name, folder=place)
+    yield said("export.upload", "Upload: {what}.", what=system.upload)
+    yield said("export.wall", "The wall: {wall}.", wall=system.wall)
+    readme = from_here(to / README)
+    yield said("export.read", "Read {file}: it tells each step.", file=readme)
 
 
 def _system(name: str) -> System:
     if name in SYSTEMS:
         return SYSTEMS[name]
     known = "\n".join(f"  {system.name:13} {system.about}" for system in SYSTEMS.values())
-    raise CannotExport(f"No platform is called {name!r} here. These are known:\n{known}")
+    text = "No platform is called {name!r} here. These are known:\n{known}"
+    raise CannotExport(said("export.no_platform", text, name=name, known=known))
 
 
 def _insist(system: System, lab: Lab, to: Path) -> None:
     if to.exists() and (not to.is_dir() or any(to.iterdir())):
-        raise CannotExport(f"{from_here(to)} holds something already. Give a new folder: --to DIR")
+        text = "{folder} holds something already. Give a new folder: {option}"
+        raise CannotExport(said("export.not_empty", text, folder=from_here(to), option="--to DIR"))
     if lab.folder.parent != course.root() / "labs":
-        step = "Make a lab of your own from it: ./roslings new-lab NAME"
-        raise CannotExport(f"The lab {lab.name!r} is an example, with its solution.\n{step}")
-    if lab.hidden and not system.keeps_hidden:
-        raise CannotExport(
-            f"Students could read hidden checks there: {system.about}.\n"
-            "Leave --hidden out, and grade with it yourself: ./roslings grade"
+        text = (
+            "The lab {lab!r} is an example, with its solution.\n"
+            "Make a lab of your own from it: {command}"
         )
+        command = "./roslings new-lab NAME"
+        raise CannotExport(said("export.example", text, lab=lab.name, command=command))
+    if lab.hidden and not system.keeps_hidden:
+        text = (
+            "Students could read hidden checks there: {system}.\n"
+            "Leave {option} out, and grade with it yourself: ./roslings grade"
+        )
+        raise CannotExport(said("export.hidden", text, system=system.about, option="--hidden"))
 
 
 def names_for(lab: Lab, found: CourseFiles) -> list[str]:
@@ -124,9 +142,20 @@ def _real_name(name: str) -> str:
 
 def _fill_in(template: Path, target: Path, lab: Lab, system: System) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
-    text = filled(template.read_text("utf-8"), lab, system_packages(lab, system))
+    text = filled(_written(template, system), lab, system_packages(lab, system))
     target.write_text(text, "utf-8")
     target.chmod(0o755 if target.name.endswith(RUNS) else 0o644)
+
+
+def _written(template: Path, system: System) -> str:
+    """A template's text; what an instructor reads, in the language that is asked for."""
+    english = template.read_text("utf-8")
+    return language.template(readme_id(system), english) if template.name == README else english
+
+
+def readme_id(system: System) -> str:
+    """The id of the page that tells each step."""
+    return f"export.{system.name}.readme"
 
 
 def system_packages(lab: Lab, system: System) -> list[str]:
@@ -147,7 +176,7 @@ def filled(text: str, lab: Lab, packages: Sequence[str] = ()) -> str:
     hidden = f"--hidden course/{HIDDEN}" if lab.hidden else ""
     words = {
         "LAB": lab.name,
-        "TITLE": lab.card.title,
+        "TITLE": lab_title(lab),
         "PACKAGE": lab.card.package,
         "HIDDEN": hidden,
         "SYSTEM": " ".join(packages),
@@ -164,4 +193,5 @@ def _insist_on_no_answers(to: Path, lab: Lab) -> None:
     if leaking := list(leaks(to, [lab])):
         shutil.rmtree(to)
         told = "\n".join(leaking)
-        raise CannotExport(f"An answer would leak. Nothing was exported.\n{told}")
+        text = "An answer would leak. Nothing was exported.\n{files}"
+        raise CannotExport(said("export.leaks", text, files=told))

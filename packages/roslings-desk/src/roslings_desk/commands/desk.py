@@ -60,11 +60,11 @@ def add_options(word: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Serve the desk until Ctrl-C."""
     from ros2_on_pip.surroundings import prepare
-    from roslings_desk.server import Wish, run
+    from roslings_desk.server import DeskOptions, run
 
     prepare()
     run(
-        Wish(
+        DeskOptions(
             tab=options.tab,
             port=options.port,
             browser=not options.no_browser,

@@ -7,9 +7,9 @@ from typing import Any
 
 from ros2_on_pip.interfaces import class_of
 from ros2_on_pip.node_parts import by_action
-from ros2_on_pip.problem import Problem
-from ros2_on_pip.yaml_out import Shape, as_yaml
-from roslings_desk.controls import Names, Notice, Text, TextField, button, part, tell, told
+from ros2_on_pip.problem import CommandProblem
+from ros2_on_pip.yaml_out import YamlOptions, as_yaml
+from roslings_desk.controls import NameTable, Notice, PageText, TextField, button, part, tell, told
 from roslings_desk.form import Form
 from roslings_desk.hub import Hub
 from roslings_desk.sent_goal import NoActionServer, SentGoal
@@ -17,19 +17,19 @@ from roslings_desk.tab import OpenTab
 
 MOST_ROWS = 100
 COLUMNS = ("Action", "Type")
-SHAPE = Shape(longest=64)
+SHAPE = YamlOptions(longest=64)
 LOOK_EVERY_S = 1.0
 """Each look asks for the services of every node."""
 
 
-class StillRuns(Problem):
+class StillRuns(CommandProblem):
     """This page's goal has not ended yet."""
 
     def __init__(self, action: str) -> None:
         super().__init__(f"Your goal for '{action}' still runs. Wait for its end, or cancel it.")
 
 
-class NothingRuns(Problem):
+class NothingRuns(CommandProblem):
     """There is no goal to cancel."""
 
     def __init__(self) -> None:
@@ -56,11 +56,11 @@ class ActionsTab:
         with part("div", "sides"):
             with part("div", "column"):
                 self._wanted = TextField("Find an action", type="search")
-                self._count = Text("p", "", "count")
-                self._names = Names("All actions", COLUMNS, self._choose)
+                self._count = PageText("p", "", "count")
+                self._names = NameTable("All actions", COLUMNS, self._choose)
             self._side = part("section", "column", aria_label="The chosen action")
         with self._side:
-            Text("p", "Choose an action. Nothing is sent before you press Send goal.", "hint")
+            PageText("p", "Choose an action. Nothing is sent before you press Send goal.", "hint")
 
     def _let_go(self) -> None:
         if self._sent:
@@ -99,35 +99,35 @@ class ActionsTab:
         self._chosen = action
         self._side.clear()
         with self._side:
-            Text("h3", action)
+            PageText("h3", action)
             problem = Notice()
             tell(problem, lambda: self._show_form(action))
 
     def _show_form(self, action: str) -> None:
         """Raises UnknownInterface."""
         type_name = self._there[action][0]
-        Text("p", type_name, "hint")
+        PageText("p", type_name, "hint")
         cls = class_of(type_name, "action")
         form = Form(cls.Goal)
         trouble = Notice()
         with part("div", "row"):
             button("Send goal", told(trouble, lambda: self._send(action, cls, form)))
             button("Cancel goal", told(trouble, self._cancel))
-        Text("p", "A goal that still runs is cancelled when you close this page.", "hint")
-        self._state = Text("p", "", "hint", role="status")
-        self._told = Text("p", "", "hint")
+        PageText("p", "A goal that still runs is cancelled when you close this page.", "hint")
+        self._state = PageText("p", "", "hint", role="status")
+        self._told = PageText("p", "", "hint")
         self._feedback = _region("The feedback")
         self._result = _region("The result")
 
     async def _send(self, action: str, cls: Any, form: Form) -> None:
-        """Raises BadField, StillRuns, NoActionServer, NoAnswer, CallFailed, Rejected."""
+        """Raises BadField, StillRuns, NoActionServer, ServiceSilent, CallFailed, Rejected."""
         if self._sent and not self._sent.is_over:
             raise StillRuns(self._sent.action)
         goal, stamps = form.filled()
         if action not in (there := served(self._hub)):
             raise NoActionServer(action, there)
         for stamp in stamps:
-            stamp(self._hub.eye.node.get_clock().now().to_msg())
+            stamp(self._hub.desk_node.node.get_clock().now().to_msg())
         self._sent, self._drawn = SentGoal(self._hub, action, cls), None
         state, result = self._state, self._result
         for each in (self._told, self._feedback, result):
@@ -136,7 +136,7 @@ class ActionsTab:
         began_s = time.monotonic()
         try:
             end, found = await self._sent.follow(goal)
-        except Problem:
+        except CommandProblem:
             state.say("")
             raise
         self._show_feedback()
@@ -144,7 +144,7 @@ class ActionsTab:
         result.say(as_yaml(found, SHAPE) or "(it has no fields)")
 
     async def _cancel(self) -> None:
-        """Raises NothingRuns, NoAnswer, CallFailed, NotCanceled."""
+        """Raises NothingRuns, ServiceSilent, CallFailed, NotCanceled."""
         sent = self._sent
         if sent is None or sent.is_over or not sent.is_accepted:
             raise NothingRuns
@@ -156,10 +156,10 @@ def served(hub: Hub) -> dict[str, list[str]]:
     """The actions that a node serves, with their types. Clients do not count: ours is one."""
     return {
         name: list(dict.fromkeys(kind for _, kinds in servers for kind in kinds))
-        for name, servers in by_action(hub.eye, "service")
+        for name, servers in by_action(hub.desk_node, "service")
     }
 
 
-def _region(name: str) -> Text:
-    Text("h4", name)
-    return Text("pre", "", tabindex=0, role="region", aria_label=name)
+def _region(name: str) -> PageText:
+    PageText("h4", name)
+    return PageText("pre", "", tabindex=0, role="region", aria_label=name)

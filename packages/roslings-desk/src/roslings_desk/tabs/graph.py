@@ -12,7 +12,7 @@ from ros2_on_pip.graph.drawing import shape_svg
 from ros2_on_pip.graph.seen import GraphNow, graph_seen_by, misfits
 from ros2_on_pip.graph.shape import GraphShape, NodeShape, shape_of
 from ros2_on_pip.graph.words import counts_of, sentences_of, types_of
-from roslings_desk.controls import Check, Notice, Spoken, Text, TextField, button, part
+from roslings_desk.controls import CheckField, Notice, PageText, StatusLine, TextField, button, part
 from roslings_desk.tab import OpenTab
 
 LOOK_EVERY_S = 0.5
@@ -38,16 +38,16 @@ class GraphTab:
         self._hub = open_tab.hub
         with part("div", "row"):
             self._wanted = TextField("Only around names with", type="search")
-            self._hidden = Check("Also /rosout and other parts of ROS")
+            self._hidden = CheckField("Also /rosout and other parts of ROS")
             button("Say the graph", self._say)
         for control in (self._wanted, self._hidden):
             control.on_change(self._look_soon)
-        self._count = Text("p", "", "count")
-        self._spoken = Spoken()
+        self._count = PageText("p", "", "count")
+        self._spoken = StatusLine()
         self._trouble = Notice()
         with part("div", "scroll sheet", role="region", tabindex=0, aria_label="The picture"):
             self._picture = ui.html("", sanitize=False)
-        Text("h3", "In words")
+        PageText("h3", "In words")
         self._words = part(
             "div", "scroll", role="region", tabindex=0, aria_label="Nodes and topics"
         )
@@ -63,7 +63,7 @@ class GraphTab:
         began_s = time.monotonic()
         if began_s < self._look_s:
             return
-        self._take(graph_seen_by(self._hub.eye))
+        self._take(graph_seen_by(self._hub.desk_node))
         took_s = time.monotonic() - began_s
         self._look_s = began_s + max(LOOK_EVERY_S, took_s / LOOKING_SHARE)
 
@@ -124,10 +124,10 @@ def _tell(shape: GraphShape) -> None:
         for node in shape.nodes:
             with part("li"):
                 again = f" ({node.count} nodes of this name)" if node.count > 1 else ""
-                Text("strong", node.name + again)
+                PageText("strong", node.name + again)
                 with part("ul"):
                     for line in _lines_of(node, shape):
-                        Text("li", line)
+                        PageText("li", line)
 
 
 def _lines_of(node: NodeShape, shape: GraphShape) -> Iterator[str]:

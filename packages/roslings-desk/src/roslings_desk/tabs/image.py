@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from roslings_desk.controls import Choice, Notice, Spoken, Text, button, part, told
-from roslings_desk.hub import Heard
+from roslings_desk.controls import Notice, PageText, SelectField, StatusLine, button, part, told
+from roslings_desk.hub import SharedSubscription
 from roslings_desk.pictures import picture_of
 from roslings_desk.shown import topic_of
 from roslings_desk.tab import OpenTab
@@ -18,7 +18,7 @@ class ImageTab:
     title, every_s = "Image", 0.08
 
     def __init__(self) -> None:
-        self._heard: Heard | None = None
+        self._heard: SharedSubscription | None = None
         self._drawn = self._shown = 0
 
     def show(self, open_tab: OpenTab) -> None:
@@ -26,17 +26,17 @@ class ImageTab:
         self._open = open_tab
         trouble = Notice()
         with part("div", "row"):
-            self._topic = Choice("Topic")
+            self._topic = SelectField("Topic")
             button("Say the brightness", lambda: self._spoken.say(self._bright.text))
         self._topic.on_change(told(trouble, self._choose))
-        self._bright = Text("p", "", "value")
-        self._count = Text("p", "Choose a topic.", "hint")
-        self._spoken = Spoken()
+        self._bright = PageText("p", "", "value")
+        self._count = PageText("p", "Choose a topic.", "hint")
+        self._spoken = StatusLine()
         self._wanted = topic_of(open_tab.shown)
         self._picture = part("img", "picture", alt="No picture yet", src=NOTHING, hidden=True)
 
     def refresh(self) -> None:
-        """Draw the newest picture, where it is another one. Raises BadPicture."""
+        """Draw the newest picture, where it is another one. Raises UnshowableImage."""
         topics = self._open.hub.topics()
         there = [seen.name for seen in topics if set(seen.types) & set(TYPES)]
         self._topic.offer(there)
@@ -64,7 +64,7 @@ class ImageTab:
             self._heard = self._open.hear(topic, type_name)
             self._count.say("No picture has come yet.")
 
-    def _draw(self, heard: Heard) -> None:
+    def _draw(self, heard: SharedSubscription) -> None:
         self._drawn = heard.count
         picture = picture_of(heard.newest())
         self._shown += 1

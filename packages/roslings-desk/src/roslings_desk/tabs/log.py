@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Any
 
-from roslings_desk.controls import Choice, Text, TextField, button, part
+from roslings_desk.controls import PageText, SelectField, TextField, button, part
 from roslings_desk.tab import OpenTab
 
 ROSOUT = "/rosout"
@@ -32,16 +32,16 @@ class LogTab:
         self._hub = open_tab.hub
         self._heard = open_tab.hear(ROSOUT, "rcl_interfaces/msg/Log")
         with part("div", "row"):
-            self._level = Choice("Least level", LEVELS, "INFO")
+            self._level = SelectField("Least level", LEVELS, "INFO")
             self._node = TextField("Node", type="search")
             self._text = TextField("Text", type="search")
             self._pause = button("Pause", self._turn, aria_pressed="false")
-        self._count = Text("p", "", "count", role="status")
+        self._count = PageText("p", "", "count", role="status")
         frame = part("div", "scroll", role="region", tabindex=0, aria_label="Lines of the log")
         with frame, part("table"):
             with part("thead"), part("tr"):
                 for each in COLUMNS:
-                    Text("th", each, scope="col")
+                    PageText("th", each, scope="col")
             self._body = part("tbody")
 
     def _turn(self) -> None:
@@ -82,7 +82,7 @@ class LogTab:
             for line in wanted[:MOST_ROWS]:
                 with part("tr"):
                     for words in _cells(line):
-                        Text("td", words)
+                        PageText("td", words)
 
 
 def _cells(line: Any) -> tuple[str, ...]:

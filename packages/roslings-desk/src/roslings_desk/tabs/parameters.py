@@ -22,17 +22,17 @@ from ros2_on_pip.parameters import (
     plain,
     word_of,
 )
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from ros2_on_pip.yaml_in import parsed
 from ros2_on_pip.yaml_out import dumped
 from roslings_desk.asking import ask
 from roslings_desk.controls import (
-    Check,
-    Choice,
-    Field,
+    CheckField,
+    ControlField,
     Notice,
+    PageText,
+    SelectField,
     Slider,
-    Text,
     TextField,
     button,
     part,
@@ -44,7 +44,7 @@ from roslings_desk.tab import OpenTab
 EVENTS = "/parameter_events"
 
 
-class WrongKind(Problem):
+class WrongValueType(CommandProblem):
     """What was typed does not fit the parameter's type."""
 
     def __init__(self, name: str, kind: str, typed: str) -> None:
@@ -53,7 +53,7 @@ class WrongKind(Problem):
         )
 
 
-class Refused(Problem):
+class ValueRefused(CommandProblem):
     """The node did not take the value."""
 
     def __init__(self, name: str, reason: str) -> None:
@@ -61,7 +61,7 @@ class Refused(Problem):
 
 
 @dataclass
-class Row:
+class ParameterRow:
     """One parameter, and its control."""
 
     name: str
@@ -69,8 +69,8 @@ class Row:
     """As rcl_interfaces/msg/ParameterType counts."""
     value: Any
     """What the node has."""
-    control: Field
-    shown: Text
+    control: ControlField
+    shown: PageText
     sending: bool = False
 
     def take(self, value: Any, but_control: bool = False) -> None:
@@ -88,7 +88,7 @@ class ParametersTab:
 
     def __init__(self) -> None:
         self._node = ""
-        self._rows: dict[str, Row] = {}
+        self._rows: dict[str, ParameterRow] = {}
         self._before: list[tuple[str, Any]] = []
         self._heard_to = 0
 
@@ -98,16 +98,16 @@ class ParametersTab:
         self._events = open_tab.hear(EVENTS, "rcl_interfaces/msg/ParameterEvent")
         self._trouble = Notice()
         with part("div", "row"):
-            self._choice = Choice("Node")
+            self._choice = SelectField("Node")
             button("Undo the last change", told(self._trouble, self._undo))
-        self._said = Text("p", "Choose a node.", "hint", role="status")
+        self._said = PageText("p", "Choose a node.", "hint", role="status")
         self._list = part("div", "parameters")
         self._wanted = topic_of(open_tab.shown)
         self._choice.on_change(told(self._trouble, self._choose))
 
     def refresh(self) -> None:
         """Nodes that can be asked, and what others have set. Raises NodeVanished."""
-        services = self._hub.eye.services(hidden=False)
+        services = self._hub.desk_node.services(hidden=False)
         nodes = [name.rpartition("/")[0] for name in services if name.endswith(f"/{SERVICE}")]
         self._choice.offer(nodes)
         if self._wanted:
@@ -138,7 +138,7 @@ class ParametersTab:
             self._said.say(f"No node is called {self._wanted} yet.")
 
     async def _choose(self) -> None:
-        """Raises NoAnswer, CallFailed."""
+        """Raises ServiceSilent, CallFailed."""
         self._node, self._rows, self._before = "", {}, []
         self._list.clear()
         if node := self._choice.value:
@@ -174,21 +174,21 @@ class ParametersTab:
                 with part("div", "parameter"):
                     self._rows[name] = self._made(name, value, descriptor)
 
-    def _made(self, name: str, value: Any, descriptor: Any) -> Row:
+    def _made(self, name: str, value: Any, descriptor: Any) -> ParameterRow:
         found = plain(value)
         control = _control(f"{name} ({word_of(value.type)})", value.type, found, descriptor)
-        shown = Text("p", f"now {typed_of(value.type, found)}", "value")
-        row = Row(name, value.type, found, control, shown)
+        shown = PageText("p", f"now {typed_of(value.type, found)}", "value")
+        row = ParameterRow(name, value.type, found, control, shown)
         if descriptor.description:
-            Text("p", descriptor.description, "hint")
+            PageText("p", descriptor.description, "hint")
         if descriptor.read_only:
             control.disable()
-            Text("p", "It cannot be changed.", "hint")
+            PageText("p", "It cannot be changed.", "hint")
         else:
             self._connect(row)
         return row
 
-    def _connect(self, row: Row) -> None:
+    def _connect(self, row: ParameterRow) -> None:
         """A slider and a switch act at once; what is typed is set by its button."""
         act = told(self._trouble, lambda: self._set(row))
         if isinstance(row.control, TextField):
@@ -196,8 +196,11 @@ class ParametersTab:
         else:
             row.control.on_change(act)
 
-    async def _set(self, row: Row) -> None:
-        """What the control says; while a slider moves on, the newest. Raises Refused, NoAnswer."""
+    async def _set(self, row: ParameterRow) -> None:
+        """What the control says; while a slider moves on, the newest.
+
+        Raises ValueRefused, ServiceSilent.
+        """
         if row.sending:
             return
         self._before.append((row.name, row.value))
@@ -207,14 +210,14 @@ class ParametersTab:
             while wanted != row.value:
                 await self._send(row, wanted)
                 wanted = value_of(row)
-        except Problem:
+        except CommandProblem:
             row.take(row.value, but_control=isinstance(row.control, TextField))
             self._before.pop()
             raise
         finally:
             row.sending = False
 
-    async def _send(self, row: Row, wanted: Any) -> None:
+    async def _send(self, row: ParameterRow, wanted: Any) -> None:
         from rcl_interfaces.msg import Parameter
         from rcl_interfaces.srv import SetParameters
 
@@ -224,11 +227,11 @@ class ParametersTab:
         answer = await ask(self._hub, f"{self._node}/set_parameters", SetParameters, asked)
         (result,) = answer.results
         if not result.successful:
-            raise Refused(row.name, result.reason)
+            raise ValueRefused(row.name, result.reason)
         row.take(wanted, but_control=True)
 
     async def _undo(self) -> None:
-        """Raises Refused, NoAnswer."""
+        """Raises ValueRefused, ServiceSilent."""
         if not self._before:
             self._said.say("There is nothing to undo.")
             return
@@ -239,10 +242,10 @@ class ParametersTab:
         self._said.say(f"{name} is {typed_of(row.kind, value)} again.")
 
 
-def _control(label: str, kind: int, value: Any, descriptor: Any) -> Field:
+def _control(label: str, kind: int, value: Any, descriptor: Any) -> ControlField:
     ranges = [*descriptor.floating_point_range, *descriptor.integer_range]
     if kind == BOOL:
-        return Check(label, value)
+        return CheckField(label, value)
     if ranges and kind in (INTEGER, DOUBLE):
         span = ranges[0]
         step = span.step or (1 if kind == INTEGER else 0)
@@ -259,8 +262,8 @@ def typed_of(kind: int, value: Any) -> str:
     return "not set" if value is None else dumped(value, flow=True).strip()
 
 
-def value_of(row: Row) -> Any:
-    """What the control says, in the parameter's type. Raises WrongKind."""
+def value_of(row: ParameterRow) -> Any:
+    """What the control says, in the parameter's type. Raises WrongValueType."""
     typed = row.control.value
     if row.kind in (BOOL, STRING):
         return typed
@@ -268,5 +271,5 @@ def value_of(row: Row) -> Any:
     if row.kind == DOUBLE and isinstance(value, int) and not isinstance(value, bool):
         value = float(value)
     if message_of(value).type != row.kind:
-        raise WrongKind(row.name, word_of(row.kind), typed)
+        raise WrongValueType(row.name, word_of(row.kind), typed)
     return value

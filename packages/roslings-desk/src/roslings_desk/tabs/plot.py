@@ -14,12 +14,12 @@ from nicegui import ui
 
 from ros2_on_pip.field_types import FLOATS, INTEGERS, read_type
 from ros2_on_pip.interfaces import class_of
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from roslings_desk.controls import (
-    Choice,
     Notice,
-    Spoken,
-    Text,
+    PageText,
+    SelectField,
+    StatusLine,
     TextField,
     button,
     part,
@@ -27,7 +27,7 @@ from roslings_desk.controls import (
     tell,
     told,
 )
-from roslings_desk.hub import Heard
+from roslings_desk.hub import SharedSubscription
 from roslings_desk.tab import OpenTab
 
 SHOWN_S = 20.0
@@ -47,7 +47,7 @@ AXIS = {
 COLUMNS = ("Curve", "Newest", "Least", "Most", "Messages/s", "Not drawn")
 
 
-class NoNumber(Problem):
+class NoNumber(CommandProblem):
     """The field is no number."""
 
     def __init__(self, path: str, type_name: str) -> None:
@@ -57,14 +57,14 @@ class NoNumber(Problem):
         )
 
 
-class NoTopic(Problem):
+class NoTopicToPlot(CommandProblem):
     """None was chosen, or nobody has it any more."""
 
     def __init__(self) -> None:
         super().__init__("Choose a topic first: one that a node has now.")
 
 
-class TooMany(Problem):
+class TooMany(CommandProblem):
     """No more curves."""
 
     def __init__(self) -> None:
@@ -75,7 +75,7 @@ class TooMany(Problem):
 class Curve:
     """One field of a topic, and its points: seconds by the desk's clock, value."""
 
-    heard: Heard
+    heard: SharedSubscription
     path: str
     points: deque[tuple[float, float]] = field(default_factory=lambda: deque(maxlen=MOST_POINTS))
     seen: int = 0
@@ -130,8 +130,8 @@ class PlotTab:
         """What to choose, the curves, the table."""
         self._open = open_tab
         with part("div", "row"):
-            self._topic = Choice("Topic")
-            self._field = Choice("Field")
+            self._topic = SelectField("Topic")
+            self._field = SelectField("Field")
             self._other = TextField("Or type a field", placeholder="ranges[0]")
             self._trouble = Notice()
         self._topic.on_change(self._offer_fields)
@@ -140,15 +140,15 @@ class PlotTab:
             self._pause = button("Pause", self._turn, aria_pressed="false")
             button("Take all away", self._clear)
             button("Say the values", self._say)
-        self._waiting = Text("p", "", "hint")
+        self._waiting = PageText("p", "", "hint")
         self._awaited = [each for word in open_tab.shown for each in curves_in(word)]
-        self._spoken = Spoken()
+        self._spoken = StatusLine()
         self._chart = ui.echart(_options([])).classes("curves")
         self._chart.props["role"] = "img"
         self._chart.props["aria-label"] = "The curves. The table below has their numbers."
         with part("div", "scroll", role="region", tabindex=0, aria_label="The curves in numbers"):
             self._table = part("table")
-        self._rows: list[list[Text]] = []
+        self._rows: list[list[PageText]] = []
         self._show_rows()
 
     # --- choosing --------------------------------------------------------------------------
@@ -170,14 +170,14 @@ class PlotTab:
         return found[0] if found else None
 
     def _add(self) -> None:
-        """Raises NoTopic, NoNumber, TooMany, SeveralTypes, UnknownInterface."""
+        """Raises NoTopicToPlot, NoNumber, TooMany, SeveralTypes, UnknownInterface."""
         topic, path = self._topic.value, self._other.value.strip() or self._field.value
         self._add_curve(topic, path)
 
     def _add_curve(self, topic: str, path: str) -> None:
         type_name = self._open.hub.type_of(topic)
         if not type_name:
-            raise NoTopic
+            raise NoTopicToPlot
         if number_at(class_of(type_name, "msg")(), path, only_type=True) is None:
             raise NoNumber(path, type_name)
         if len(self._curves) >= MOST_CURVES:
@@ -246,14 +246,14 @@ class PlotTab:
         with self._table:
             with part("thead"), part("tr"):
                 for word in COLUMNS:
-                    Text("th", word, scope="col")
+                    PageText("th", word, scope="col")
             with part("tbody"):
                 self._rows = [_row_of(curve) for curve in self._curves]
 
 
-def _row_of(curve: Curve) -> list[Text]:
+def _row_of(curve: Curve) -> list[PageText]:
     with part("tr"):
-        return [Text("td", words) for words in curve.row()]
+        return [PageText("td", words) for words in curve.row()]
 
 
 def _not_drawn(curve: Curve) -> str:

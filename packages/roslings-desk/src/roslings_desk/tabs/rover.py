@@ -13,27 +13,27 @@ from typing import Any
 
 from nicegui import ui
 
-from ros2_on_pip.problem import Problem
+from ros2_on_pip.problem import CommandProblem
 from roslings_desk.controls import (
-    Check,
-    Choice,
+    CheckField,
     Notice,
-    Spoken,
-    Text,
+    PageText,
+    SelectField,
+    StatusLine,
     TextField,
     button,
     part,
     told,
 )
-from roslings_desk.driver import Driver
-from roslings_desk.hub import Heard, TopicSeen
+from roslings_desk.driver import TwistPublisher
+from roslings_desk.hub import GraphTopic, SharedSubscription
 from roslings_desk.odometry import ODOM, ODOMETRY, pose_in
 from roslings_desk.publisher import Publisher
 from roslings_desk.room_heard import RoomHeard
 from roslings_desk.tab import OpenTab
 from roslings_rover.models.differential_drive import Body, Pose
 from roslings_rover.rover.moving_map import moving_map, place_under
-from roslings_rover.rover.rover import PATH_STEP_M, TURN_STEP_RAD, Moment
+from roslings_rover.rover.rover import PATH_STEP_M, TURN_STEP_RAD, RoverMoment
 
 CMD_VEL, GOAL_POSE = "/cmd_vel", "/goal_pose"
 """The last one is where rviz2 publishes a goal that was clicked."""
@@ -55,7 +55,7 @@ PRESSES = (("Left", 0, 1), ("Ahead", 1, 0), ("Back", -1, 0), ("Right", 0, -1))
 """Words, and what they are of the chosen speeds: ahead, and to the left."""
 
 
-class NoPlace(Problem):
+class NoPlace(CommandProblem):
     """What was typed is no place."""
 
     def __init__(self, typed: str) -> None:
@@ -72,7 +72,7 @@ class RoverTab:
     title, every_s = "Rover", 0.05
 
     def __init__(self) -> None:
-        self._trail: list[Moment] = []
+        self._trail: list[RoverMoment] = []
         self._drawn = 0
         self._spoken_s = 0.0
         self._goal = self._goal_told = ""
@@ -82,9 +82,9 @@ class RoverTab:
         """The map, and beside it what drives."""
         self._hub = open_tab.hub
         self._open = open_tab
-        self._odom: Heard | None = None
+        self._odom: SharedSubscription | None = None
         self._room = RoomHeard(open_tab)
-        self._driver: Driver | None = None
+        self._driver: TwistPublisher | None = None
         self._drivers = open_tab.ends.enter_context(ExitStack())
         self._goals = open_tab.ends.enter_context(Publisher(self._hub, GOAL_POSE, POSE_STAMPED))
         with part("div", "sides"):
@@ -93,8 +93,8 @@ class RoverTab:
             )
             self._map.on("click", lambda event: self._click(*event.args), js_handler=CLICKED)
             with part("div", "column"):
-                self._place = Text("p", "", "value")
-                self._state = Text("p", "Looking for nodes ...", "hint", id="state")
+                self._place = PageText("p", "", "value")
+                self._state = PageText("p", "Looking for nodes ...", "hint", id="state")
                 self._controls()
         ui.on("desk-drive", lambda event: self._by_keys(event.args))
         ui.on("desk-stop", lambda _: self._stop())
@@ -110,24 +110,26 @@ class RoverTab:
             role="application",
             aria_label="Drive by arrow keys",
         ):
-            Text("p", "Drive: click here, then hold an arrow key. Space stops.")
-            Text("p", "A gamepad drives while this field has the focus: its left stick.", "hint")
-        Text("p", "Escape stops it, too, wherever you are on this page.", "hint")
+            PageText("p", "Drive: click here, then hold an arrow key. Space stops.")
+            PageText(
+                "p", "A gamepad drives while this field has the focus: its left stick.", "hint"
+            )
+        PageText("p", "Escape stops it, too, wherever you are on this page.", "hint")
         with part("div", "row"):
-            self._speed = Choice("Speed, m/s", SPEEDS_M_S, "0.3")
-            self._turn = Choice("Turn, rad/s", TURNS_RAD_S, "1.0")
-        Text("p", f"Or press a button: each press drives {A_PRESS_S:g} s.", "hint")
+            self._speed = SelectField("Speed, m/s", SPEEDS_M_S, "0.3")
+            self._turn = SelectField("Turn, rad/s", TURNS_RAD_S, "1.0")
+        PageText("p", f"Or press a button: each press drives {A_PRESS_S:g} s.", "hint")
         with part("div", "row", role="group", aria_label=f"Drive for {A_PRESS_S:g} s"):
             for word, ahead, left in PRESSES:
                 button(word, partial(self._drive, ahead, left, A_PRESS_S))
         self._show_goal()
         with part("div", "row"):
             button("Say where it is", self._say)
-            self._says = Check("Say it every 3 s")
-        self._spoken = Spoken()
+            self._says = CheckField("Say it every 3 s")
+        self._spoken = StatusLine()
 
     def _show_goal(self) -> None:
-        Text("p", f"A goal is published on {GOAL_POSE}: click on the map, or type it.", "hint")
+        PageText("p", f"A goal is published on {GOAL_POSE}: click on the map, or type it.", "hint")
         trouble = Notice()
         with part("div", "row"):
             self._goal_x = TextField("Goal x, m", "0.0", inputmode="decimal")
@@ -202,7 +204,7 @@ class RoverTab:
         if is_another:
             self._draw()
 
-    def _follow(self, odom: Heard) -> bool:
+    def _follow(self, odom: SharedSubscription) -> bool:
         """Go where /odom says; whether the map is another one now."""
         pose = pose_in(odom.newest())
         if pose is None:
@@ -223,11 +225,11 @@ class RoverTab:
 
     def _picture(self) -> str:
         """The map as the address of an image; before the first news the rover is at the start."""
-        trail = self._trail or [Moment(0.0, Pose())]
+        trail = self._trail or [RoverMoment(0.0, Pose())]
         drawn = moving_map(self._room.world, trail, Body().radius_m, moves=False)
         return f"data:image/svg+xml;base64,{base64.b64encode(drawn.encode()).decode()}"
 
-    def _join(self, there: Mapping[str, TopicSeen]) -> None:
+    def _join(self, there: Mapping[str, GraphTopic]) -> None:
         """Be there for those who are there now."""
         says = ODOM in there and there[ODOM].publishers > 0
         hears = CMD_VEL in there and there[CMD_VEL].subscriptions > 0
@@ -237,7 +239,7 @@ class RoverTab:
             self._open.leave(self._odom)
             self._odom = None
         if hears and self._driver is None:
-            self._driver = self._drivers.enter_context(Driver(self._hub, CMD_VEL))
+            self._driver = self._drivers.enter_context(TwistPublisher(self._hub, CMD_VEL))
         elif self._driver and not hears:
             self._drivers.close()
             self._driver = None
@@ -246,7 +248,7 @@ class RoverTab:
 
     def _goes_to(self, pose: Pose) -> bool:
         """Whether the map is another one now."""
-        new = Moment(time.monotonic(), pose)
+        new = RoverMoment(time.monotonic(), pose)
         if not self._trail:
             self._trail = [new, new]
             return True
@@ -257,7 +259,7 @@ class RoverTab:
             self._trail[-1] = new
         return moved
 
-    def _said_of(self, there: Mapping[str, TopicSeen]) -> str:
+    def _said_of(self, there: Mapping[str, GraphTopic]) -> str:
         if ODOM not in there or not there[ODOM].publishers:
             return "No node publishes /odom. Start the rover, in a terminal: ./roslings rover"
         if not (self._driver and self._driver.listeners):

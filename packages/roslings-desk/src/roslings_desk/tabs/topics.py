@@ -8,16 +8,16 @@ from ros2_on_pip.interfaces import class_of, full_name
 from ros2_on_pip.listening import SeveralTypes
 from ros2_on_pip.measuring import unit_of
 from ros2_on_pip.names import checked_topic
-from ros2_on_pip.yaml_out import Shape, as_yaml
-from roslings_desk.controls import Names, Notice, Text, TextField, button, part, tell, told
+from ros2_on_pip.yaml_out import YamlOptions, as_yaml
+from roslings_desk.controls import NameTable, Notice, PageText, TextField, button, part, tell, told
 from roslings_desk.form import Form
-from roslings_desk.hub import Heard, TopicSeen
+from roslings_desk.hub import GraphTopic, SharedSubscription
 from roslings_desk.publisher import Publisher
 from roslings_desk.shown import topic_of
 from roslings_desk.tab import OpenTab
 
 MOST_ROWS = 100
-SHAPE = Shape(longest=64)
+SHAPE = YamlOptions(longest=64)
 LONGEST_TEXT = 6_000
 COLUMNS = ("Topic", "Type", "Publishers", "Subscriptions")
 
@@ -29,7 +29,7 @@ class TopicsTab:
 
     def __init__(self) -> None:
         self._chosen = ""
-        self._heard: Heard | None = None
+        self._heard: SharedSubscription | None = None
         self._drawn = self._shown = 0
         self._publishing = ExitStack()
 
@@ -40,17 +40,17 @@ class TopicsTab:
         with part("div", "sides"):
             with part("div", "column"):
                 self._wanted = TextField("Find a topic", type="search")
-                self._count = Text("p", "", "count")
-                self._names = Names("All topics", COLUMNS, self._choose_seen)
+                self._count = PageText("p", "", "count")
+                self._names = NameTable("All topics", COLUMNS, self._choose_seen)
                 self._show_other()
             self._side = part("section", "column", aria_label="The chosen topic")
         self._awaited = topic_of(open_tab.shown)
         with self._side:
-            Text("p", _first_words(self._awaited), "hint")
+            PageText("p", _first_words(self._awaited), "hint")
 
     def _show_other(self) -> None:
         """For a topic that nobody has yet."""
-        Text("h3", "Another topic")
+        PageText("h3", "Another topic")
         with part("div", "row"):
             name = TextField("Name", "/chatter")
             kind = TextField("Type", "std_msgs/msg/String")
@@ -89,17 +89,19 @@ class TopicsTab:
         self._side.clear()
         self._chosen = topic
         with self._side:
-            Text("h3", topic)
-            Text("p", type_name, "hint")
+            PageText("h3", topic)
+            PageText("p", type_name, "hint")
             self._problem = Notice()
             tell(self._problem, lambda: self._listen(topic, type_name))
 
     def _listen(self, topic: str, type_name: str) -> None:
         self._heard = self._open.hear(topic, type_name)
         self._drawn = self._shown = 0
-        self._rate = Text("p", "Nothing has come yet.", "value")
-        self._drops = Text("p", "", "count")
-        self._value = Text("pre", "", tabindex=0, role="region", aria_label="The newest message")
+        self._rate = PageText("p", "Nothing has come yet.", "value")
+        self._drops = PageText("p", "", "count")
+        self._value = PageText(
+            "pre", "", tabindex=0, role="region", aria_label="The newest message"
+        )
         self._show_form(topic, type_name)
 
     def _leave(self) -> None:
@@ -108,7 +110,7 @@ class TopicsTab:
             self._open.leave(self._heard)
         self._heard = None
 
-    def _follow(self, seen: TopicSeen | None, heard: Heard) -> None:
+    def _follow(self, seen: GraphTopic | None, heard: SharedSubscription) -> None:
         if seen and len(seen.types) > 1:
             raise SeveralTypes(seen.name, list(seen.types))
         if seen and seen.types[0] != heard.type_name:
@@ -120,7 +122,7 @@ class TopicsTab:
         if heard.count != self._drawn:
             self._draw(heard)
 
-    def _draw(self, heard: Heard) -> None:
+    def _draw(self, heard: SharedSubscription) -> None:
         self._drawn = heard.count
         self._shown += 1
         lost = f"; the middleware lost {heard.lost}" if heard.lost else ""
@@ -131,12 +133,12 @@ class TopicsTab:
     # --- publishing ------------------------------------------------------------------------
 
     def _show_form(self, topic: str, type_name: str) -> None:
-        Text("h3", "Publish")
+        PageText("h3", "Publish")
         form = Form(class_of(type_name, "msg"))
         publisher = self._publishing.enter_context(Publisher(self._open.hub, topic, type_name))
         rate = TextField("Rate, Hz", "1", inputmode="decimal")
         trouble = Notice()
-        said = Text("p", "", "hint", role="status")
+        said = PageText("p", "", "hint", role="status")
 
         def once() -> None:
             publisher.publish(*form.filled())
@@ -162,7 +164,7 @@ def _first_words(awaited: str) -> str:
     return "Choose a topic. It is listened to as long as you look at it."
 
 
-def _row(seen: TopicSeen) -> tuple[str, ...]:
+def _row(seen: GraphTopic) -> tuple[str, ...]:
     return (seen.name, ", ".join(seen.types), str(seen.publishers), str(seen.subscriptions))
 
 

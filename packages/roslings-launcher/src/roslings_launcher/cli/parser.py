@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Sequence
 
 from roslings_launcher import __version__
-from roslings_launcher.cli.table import LEARNERS, TEACHERS, Command, commands, listed
+from roslings_launcher.cli.table import LEARNERS, TEACHERS, CommandEntry, commands, listed
 
 
 def parser(names: Sequence[str] | None = None) -> argparse.ArgumentParser:
@@ -30,7 +30,7 @@ def parser(names: Sequence[str] | None = None) -> argparse.ArgumentParser:
     return top
 
 
-def _add(words: argparse._SubParsersAction[argparse.ArgumentParser], command: Command) -> None:
+def _add(words: argparse._SubParsersAction[argparse.ArgumentParser], command: CommandEntry) -> None:
     about = command.about[0].upper() + command.about[1:]
     word = words.add_parser(command.name, description=about, allow_abbrev=False)
     word.set_defaults(command=command.name)

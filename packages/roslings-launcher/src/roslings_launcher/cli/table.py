@@ -1,10 +1,10 @@
 """All commands: each package of the course brings a table of its own.
 
-A package has a module `command_names` with `COMMANDS`: lines of who types a command (`learners`,
-`teachers`; empty: it is not listed), its name, what it is about, and where it stands: `MODULE`, or
-`MODULE:FUNCTION` where a function reads the words itself. In a course's folder the tables are found
-by their files, and no package is imported: they are there before anything is installed. Elsewhere
-they are the entry points `roslings.command` of what is installed.
+A package has a module `command_names` with `COMMANDS`. Each line says who types a command
+(`learners`, `teachers`; empty: it is not listed), its name, what it is about, and where it stands.
+That is `MODULE`, or `MODULE:FUNCTION` where a function reads the words itself. In a course's folder
+the tables are found by their files, and no package is imported: they are there before anything is
+installed. Elsewhere they are the entry points `roslings.command` of what is installed.
 
 A MODULE has `add_options(parser)`, which says what the command takes, and `run(options)`. Where it
 has `leave(status)`, too, that ends the process.
@@ -67,7 +67,7 @@ FIRST_WORD = ""
 
 
 @dataclass(frozen=True)
-class Command:
+class CommandEntry:
     """One command of the table."""
 
     typed_by: str
@@ -88,13 +88,13 @@ class Command:
 
 
 @cache
-def commands() -> dict[str, Command]:
+def commands() -> dict[str, CommandEntry]:
     """By name, in the order of the list."""
-    found = {row[1]: Command(*row) for table in _tables() for row in table}
+    found = {row[1]: CommandEntry(*row) for table in _tables() for row in table}
     return {name: found[name] for name in sorted(found, key=_place)}
 
 
-def listed(typed_by: str) -> list[Command]:
+def listed(typed_by: str) -> list[CommandEntry]:
     """Those that `--help` tells of."""
     return [command for command in commands().values() if command.typed_by == typed_by]
 

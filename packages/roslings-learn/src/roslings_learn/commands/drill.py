@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 
 from ros2_on_pip.errors import EXIT_OF_OUTCOME, OK
-from roslings.typed import program
+from ros2_on_pip.language import said
+from roslings.commands.invocation import program
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -34,12 +35,12 @@ def add_options(word: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Show the next drill, or check one."""
-    from roslings_learn.drills.command import Asked
+    from roslings_learn.drills.command import DrillOptions
     from roslings_learn.drills.command import run as run_drill
 
     day = _day_of_drills(options.day) if options.day else None
     name = options.drill or (_drill_at_hand(day) if options.hint else None)
-    asked = Asked(program(), name, options.hint, day, options.solution, options.list)
+    asked = DrillOptions(program(), name, options.hint, day, options.solution, options.list)
     verdict = run_drill(asked)
     return EXIT_OF_OUTCOME[verdict.outcome] if verdict else OK
 
@@ -61,5 +62,6 @@ def _day_of_drills(text: str) -> str:
     found = of_day(every, text)
     if not found:
         last = max(int(each.day[:2]) for each in every)
-        raise NoSuchDrill(f"There is no drill of the day {text!r}. Give a day from 1 to {last}.")
+        told = "There is no drill of the day {day!r}. Give a day from 1 to {last}."
+        raise NoSuchDrill(said("drill.no_such_day", told, day=text, last=last))
     return found[0].day

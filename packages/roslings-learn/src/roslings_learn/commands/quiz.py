@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ros2_on_pip.errors import OK
+from ros2_on_pip.label_column import LabelledLine, labelled, wrapped
+from ros2_on_pip.language import Text, counted, said
 from roslings import course
-from roslings.typed import program
+from roslings.commands.invocation import program
 
 if TYPE_CHECKING:
     from roslings_learn.lessons import Day, Lessons, Question, Quiz
 
 QUIT = "q"
+LABELS = 7
 TRIES = 2
-LOOK = "Press Enter for the next question, or q to end: "
+LOOK = Text("quiz.look", "Press Enter for the next question, or q to end:")
 Read = Callable[[str], str]
 """Asks by its text, and gives the line that was typed. Raises EOFError where nobody answers."""
 
@@ -51,7 +54,7 @@ def _quiz_of(wanted: str | None, lessons: Lessons) -> Quiz:
     quiz = lessons.quiz(day.id) if day else None
     if quiz is None:
         there = [each for each in lessons.days if lessons.quiz(each.id)]
-        raise NoSuchDay(wanted or "today", tuple(there))
+        raise NoSuchDay(wanted or said("quiz.today", "today"), tuple(there))
     return quiz
 
 
@@ -75,7 +78,7 @@ def _today(lessons: Lessons) -> Day | None:
 
 
 @dataclass
-class Round:
+class QuizRound:
     """How many questions were asked so far, and which were right at the first try."""
 
     asked: int = 0
@@ -86,35 +89,56 @@ class Round:
 
 def _play(quiz: Quiz) -> None:
     """Ask, and keep the score of a whole round."""
-    print(f"{len(quiz.questions)} questions. After each answer comes its reason.", end="\n\n")
+    count = len(quiz.questions)
+    one = "{count} question. After each answer comes its reason."
+    other = "{count} questions. After each answer comes its reason."
+    print(counted("quiz.begin", count, one=one, other=other), end="\n\n")
     found = ask_all(quiz, input)
-    if not found.whole:
-        print(f"\nEnded after {found.asked} of {len(quiz.questions)}: no score is kept.")
-        return
-    print(f"\nScore  {found.right} of {found.asked} right at the first try.{_best(quiz, found)}")
-    print(f"Next   {program()}")
+    print("", *(_score(quiz, found) if found.whole else _broken_off(found, count)), sep="\n")
 
 
-def _best(quiz: Quiz, found: Round) -> str:
-    """Keep it in the progress; what is the best so far."""
+def _broken_off(found: QuizRound, count: int) -> list[str]:
+    ended = "Ended after {asked} of {count}: no score is kept."
+    return wrapped(said("quiz.ended", ended, asked=found.asked, count=count))
+
+
+def _score(quiz: Quiz, found: QuizRound) -> Iterator[str]:
+    """What was reached is kept, and what to type next."""
+    reached = "{right} of {asked} right at the first try."
+    score = said("quiz.reached", reached, right=found.right, asked=found.asked)
+    best, trouble = _best(quiz, found)
+    yield from labelled(
+        [
+            LabelledLine(said("quiz.score", "Score"), " ".join(filter(None, (score, best)))),
+            *([LabelledLine("", typed=trouble)] if trouble else ()),
+            LabelledLine(said("quiz.next", "Next"), typed=program()),
+        ],
+        LABELS,
+    )
+
+
+def _best(quiz: Quiz, found: QuizRound) -> tuple[str, str]:
+    """Keep it in the progress; what is the best so far, and why it could not be kept."""
     from roslings.workspace.errors import WorkspaceError
     from roslings.workspace.progress import record_quiz
 
     try:
         best = record_quiz(quiz.day, found.right, found.asked)
     except WorkspaceError as error:
-        return f"\nroslings: the score was not kept. {error}"
-    return f" Your best: {best.best} of {best.of}." if best.rounds > 1 else ""
+        return "", said("quiz.not_kept", "roslings: the score was not kept. {why}", why=error)
+    if best.rounds < 2:
+        return "", ""
+    return said("quiz.best", "Your best: {best} of {of}.", best=best.best, of=best.of), ""
 
 
-def ask_all(quiz: Quiz, read: Read) -> Round:
+def ask_all(quiz: Quiz, read: Read) -> QuizRound:
     """Ask each question; `q`, Ctrl-D and Ctrl-C end it."""
-    found = Round()
+    found = QuizRound()
     try:
         for number, question in enumerate(quiz.questions, 1):
             right = _ask(number, question, read)
             found.asked, found.right = number, found.right + right
-            if number < len(quiz.questions) and _typed(read, LOOK) == QUIT:
+            if number < len(quiz.questions) and _typed(read, str(LOOK)) == QUIT:
                 raise EOFError
             print()
         found.whole = True
@@ -126,16 +150,16 @@ def ask_all(quiz: Quiz, read: Read) -> Round:
 def _ask(number: int, question: Question, read: Read) -> bool:
     """Until it is right, at most `TRIES` times; whether the first answer was. Raises EOFError."""
     from roslings_learn.lessons.answering import judged, right_answer
-    from roslings_learn.lessons.quiz_text import asked, filled
+    from roslings_learn.lessons.quiz_text import filled, question_lines
 
-    print("\n".join(asked(number, question)))
+    print("\n".join(question_lines(number, question)))
     for attempt in range(1, TRIES + 1):
         found = judged(question, _answer(question, read))
-        word = "Right." if found.right else "Not yet."
+        word = said("quiz.right", "Right.") if found.right else said("quiz.not_yet", "Not yet.")
         print("\n".join(filled(f"{word} {' '.join(found.said)}", "  ")))
         if found.right:
             return attempt == 1
-    print("This is right:")
+    print(said("quiz.this_is_right", "This is right:"))
     for line in right_answer(question):
         print("\n".join(filled(f"  {line}", "     ")))
     return False
@@ -143,19 +167,22 @@ def _ask(number: int, question: Question, read: Read) -> bool:
 
 def _answer(question: Question, read: Read) -> str:
     """A line that is an answer. Raises EOFError."""
-    from roslings_learn.lessons.answering import NoAnswer, how_to_answer, judged
+    from roslings_learn.lessons.answering import NotAnAnswer, how_to_answer, judged
 
     while True:
-        typed = _typed(read, f"{how_to_answer(question)} ")
+        typed = _typed(read, how_to_answer(question))
         if typed == QUIT:
             raise EOFError
         try:
             judged(question, typed)
-        except NoAnswer as no_answer:
+        except NotAnAnswer as no_answer:
             print(no_answer)
         else:
             return typed
 
 
 def _typed(read: Read, text: str) -> str:
-    return read(text).strip()
+    """What stands behind the last line of the text."""
+    *before, last = wrapped(text)
+    print("".join(f"{line}\n" for line in before), end="")
+    return read(f"{last} ").strip()

@@ -8,10 +8,11 @@ from typing import Any
 from roslings.capabilities.actions.record import ActionsSeen
 from roslings.course.contract import NUMBERS_WITHIN
 from roslings.evidence import ExperimentSeen
-from roslings.judge import ExperimentView, NothingToJudge
+from roslings.judge import ExperimentView
 from roslings.judge.values import same
-from roslings_learn.drills.card import PROGRAM, Answer, DrillCard
+from roslings_learn.drills.card import PROGRAM, DrillCard, Prediction
 from roslings_learn.drills.faults import NoAnswerYet, ProgramChanged, WrongPrediction
+from roslings_learn.drills.reasons import FewShown, NothingShown
 
 NAME = "ANSWER"
 
@@ -27,7 +28,7 @@ def answer_in(source: str) -> Any:
     return None
 
 
-def require_answer(source: str, starter: str, answer: Answer) -> Any:
+def require_answer(source: str, starter: str, answer: Prediction) -> Any:
     """The student's answer. Raises NoAnswerYet, and ProgramChanged where more was changed."""
     _require_the_same(source, starter)
     found = answer_in(source)
@@ -73,7 +74,7 @@ def _kind(value: Any) -> type:
     return float if isinstance(value, int) and not isinstance(value, bool) else type(value)
 
 
-def seen_of(answer: Answer, card: DrillCard, view: ExperimentView) -> Any:
+def seen_of(answer: Prediction, card: DrillCard, view: ExperimentView) -> Any:
     """What the run showed. Raises NothingToJudge where it showed nothing of the kind."""
     if answer.shows in ("line", "lines"):
         lines = [text for text in _terminal(view.seen) if answer.holding in text]
@@ -87,7 +88,7 @@ def seen_of(answer: Answer, card: DrillCard, view: ExperimentView) -> Any:
     return _of_topic(answer, card, view)
 
 
-def _of_topic(answer: Answer, card: DrillCard, view: ExperimentView) -> Any:
+def _of_topic(answer: Prediction, card: DrillCard, view: ExperimentView) -> Any:
     topic = view.topic(card.nodes[0].publishes[0])
     if answer.shows == "topic":
         return topic.name
@@ -100,7 +101,7 @@ def _of_topic(answer: Answer, card: DrillCard, view: ExperimentView) -> Any:
 def _rate_hz(card: DrillCard, view: ExperimentView) -> float:
     rate = view.topic(card.nodes[0].publishes[0]).rate
     if rate is None:
-        raise NothingToJudge("too few messages came to speak of a rate")
+        raise NothingShown("no_rate")
     return rate.hz
 
 
@@ -111,5 +112,5 @@ def _terminal(seen: ExperimentSeen) -> list[str]:
 
 def _number(found: list[Any], number: int) -> Any:
     if len(found) < number:
-        raise NothingToJudge(f"the run showed {len(found)} of them, and number {number} is asked")
+        raise FewShown(len(found), number)
     return found[number - 1]

@@ -6,17 +6,19 @@ from typing import Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
+from ros2_on_pip.language import Text
 from roslings.capabilities.actions.contract import ActionContract
+from roslings.capabilities.services.contract import ServiceWords
 from roslings.course.card import GroupName, NodeContract, TopicContract
 from roslings.course.contract import Contract, Plain
 
 PROGRAM = "your program"
 """What the student's one file is called where a lab's card has the name of an executable."""
 KINDS = {
-    "mend": "It does not work. Mend it.",
-    "listen": "Nobody hears it. Find out why.",
-    "predict": "Say what it will show. Then run it.",
-    "write": "Write it.",
+    "mend": Text("drill.kind.mend", "It does not work. Mend it."),
+    "listen": Text("drill.kind.listen", "Nobody hears it. Find out why."),
+    "predict": Text("drill.kind.predict", "Say what it will show. Then run it."),
+    "write": Text("drill.kind.write", "Write it."),
 }
 """Kind of drill to its word for the student."""
 Shows = Literal["line", "lines", "node", "topic", "type", "rate_hz", "value", "messages", "state"]
@@ -76,7 +78,7 @@ class Take(Contract):
         return ActionContract(action=self.action, type=self.type)
 
 
-class Answer(Contract):
+class Prediction(Contract):
     """What the student foretells in the file, as `ANSWER = ...`, and where the truth is seen."""
 
     shows: Shows
@@ -95,7 +97,7 @@ class Beside(Contract):
     nodes: tuple[str, ...] = Field(min_length=1)
 
 
-class Starter(Contract):
+class StarterFault(Contract):
     """What the program that the student gets must be found guilty of."""
 
     check: str
@@ -127,8 +129,8 @@ class DrillCard(Contract):
     exits: int | None = Field(default=None, description="It ends by itself, with this exit code")
     ends_well: bool = Field(default=False, description="Ctrl-C ends it without an error")
     beside: Beside | None = None
-    answer: Answer | None = None
-    starter: Starter
+    answer: Prediction | None = None
+    starter: StarterFault
     hints: tuple[str, str, str] = Field(
         description="Where to look; which idea; the same idea in other code"
     )
@@ -157,7 +159,7 @@ class DrillCard(Contract):
     def follows_the_clock(self) -> bool:
         """All that is seen of it comes from timers, so that simulated time shows it sooner."""
         speaks = any(node.publishes for node in self.nodes)
-        talks = any(n.serves or n.calls or n.subscribes for n in self.nodes)
+        talks = self._calls or any(n.of(ServiceWords).serves or n.subscribes for n in self.nodes)
         told = self.says or self.tells or self.gives or self.takes
         asked = (told, self.beside, self.exits is not None, talks)
         return speaks and self.program == "python" and not any(asked)
@@ -165,4 +167,8 @@ class DrillCard(Contract):
     @property
     def waits_for_answers(self) -> bool:
         """It asks others for something, and cannot go on where no answer comes."""
-        return bool(self.takes) or any(node.calls for node in self.nodes)
+        return bool(self.takes) or self._calls
+
+    @property
+    def _calls(self) -> bool:
+        return any(node.of(ServiceWords).calls for node in self.nodes)

@@ -8,8 +8,10 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from ros2_on_pip.language import said
+from roslings.report.often_said import GO_ON, NEXT
 from roslings.report.page import Page
-from roslings.timeline import NS_PER_S, process_began_ns
+from roslings.seen.timeline import NS_PER_S, process_began_ns
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.progress import record_drill
 from roslings.workspace.student import workspace_root
@@ -20,7 +22,7 @@ from roslings_learn.drills.student import DrillStatus, file_of, next_drill, star
 
 
 @dataclass(frozen=True)
-class Asked:
+class DrillOptions:
     """What was typed behind `drill`."""
 
     program: str
@@ -31,7 +33,7 @@ class Asked:
     list: bool = False
 
 
-def run(asked: Asked) -> DrillVerdict | None:
+def run(asked: DrillOptions) -> DrillVerdict | None:
     """Do it, and show it; the verdict where one was given."""
     page = telling.page()
     verdict = None
@@ -47,24 +49,24 @@ def run(asked: Asked) -> DrillVerdict | None:
     return verdict
 
 
-def _put_next(page: Page, asked: Asked) -> None:
+def _put_next(page: Page, asked: DrillOptions) -> None:
     """Put the next drill into the workspace, and show it."""
     status = next_drill(day=asked.day)
     if status is None:
-        page.line("All drills are done.", "bold")
-        page.command("Next", "Go on with the course:", asked.program)
+        page.line(said("drill.all_done", "All drills are done."), "bold")
+        page.command(NEXT, GO_ON, asked.program)
         return
     _put_task(page, status, asked)
 
 
-def _put_task(page: Page, status: DrillStatus, asked: Asked) -> None:
+def _put_task(page: Page, status: DrillStatus, asked: DrillOptions) -> None:
     names = [each.name for each in all_drills()]
     file, _ = start(status.drill)
     place = (names.index(status.drill.name) + 1, len(names))
-    telling.put_task(page, status.drill, file, place, telling.Way(asked.program))
+    telling.put_task(page, status.drill, file, place, telling.WayToGoOn(asked.program))
 
 
-def _check(page: Page, one: Drill, asked: Asked) -> DrillVerdict | None:
+def _check(page: Page, one: Drill, asked: DrillOptions) -> DrillVerdict | None:
     if asked.solution:
         file = one.solution
     elif not os.path.lexists(file := file_of(one)):
@@ -72,9 +74,9 @@ def _check(page: Page, one: Drill, asked: Asked) -> DrillVerdict | None:
         return None
     began_s = process_began_ns() / NS_PER_S
     verdict = checked(one, file, began_s, kept=not asked.solution)
-    telling.put_verdict(page, one, verdict, file, telling.Way(asked.program))
+    telling.put_verdict(page, one, verdict, file, telling.WayToGoOn(asked.program))
     if verdict.outcome == "pass" and not asked.solution:
-        page.command("Next", "The next drill:", f"{asked.program} drill")
+        page.command(NEXT, said("drill.next", "The next drill:"), f"{asked.program} drill")
     return verdict
 
 
@@ -89,5 +91,6 @@ def checked(
         try:
             record_drill(one.name, verdict.outcome == "pass")
         except WorkspaceError as error:
-            print(f"roslings: the drill was not kept. {error}", file=sys.stderr)
+            told = said("drill.not_kept", "roslings: the drill was not kept. {why}", why=error)
+            print(told, file=sys.stderr)
     return verdict

@@ -1,7 +1,8 @@
 """The drills of the course: where their files lie, and what is wrong with them, with file and line.
 
-A drill is a folder `days/DAY/drills/NN_name/` with `drill.yaml`, `starter.py` and `solution.py`
-(`.sh` where its card says `program: bash`), and at will `check.py` and a program that runs beside.
+A drill is a folder `days/DAY/drills/NN_name/` with `drill.yaml`, `starter.py` and `solution.py`.
+The last two end in `.sh` where its card says `program: bash`. At will, there are `check.py` and a
+program that runs beside.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ros2_on_pip.language import said
 from roslings.course import root
 from roslings.course.files import BadCourseFile, CourseError, line_in, read_yaml
 from roslings_learn.lessons.anchors import anchors_of
@@ -34,10 +36,12 @@ class NoSolutionHere(CourseError):
     """This edition has no solutions."""
 
     def __init__(self, name: str) -> None:
-        super().__init__(
-            f"This is the students' edition: the solution of the drill {name!r} is not in it.\n"
-            f"Mend your own: ./roslings drill {name}"
+        text = (
+            "This is the students' edition: the solution of the drill {name!r} is not in it.\n"
+            "Mend your own: {command}"
         )
+        command = f"./roslings drill {name}"
+        super().__init__(said("drill.no_solution", text, name=name, command=command))
 
 
 @dataclass(frozen=True)
@@ -52,7 +56,14 @@ class Drill:
 
     @cached_property
     def card(self) -> DrillCard:
-        """The contract. Raises BadCourseFile."""
+        """The contract; its texts are in the language that is asked for. Raises BadCourseFile."""
+        from roslings_learn.drills.card_texts import translated
+
+        return translated(self.name, self.written_card)
+
+    @cached_property
+    def written_card(self) -> DrillCard:
+        """As its author wrote it. Raises BadCourseFile."""
         from roslings_learn.drills.card import DrillCard
 
         return read_yaml(self.folder / CARD, DrillCard)
@@ -128,8 +139,9 @@ def drill(name: str, course: Path | None = None) -> Drill:
         if plain in (each.name, each.folder.name):
             return each
     near = difflib.get_close_matches(plain, [each.name for each in drills], n=1)
-    guess = f" Did you mean {near[0]!r}?" if near else ""
-    raise NoSuchDrill(f"There is no drill {name!r}.{guess}\nAll of them: ./roslings drill --list")
+    guess = said("verdict.did_you_mean", " Did you mean {name!r}?", name=near[0]) if near else ""
+    text = "There is no drill {name!r}.{guess}\nAll of them: ./roslings drill --list"
+    raise NoSuchDrill(said("drill.no_such", text, name=name, guess=guess))
 
 
 def of_day(drills: Sequence[Drill], day: str) -> list[Drill]:

@@ -7,9 +7,11 @@ from typing import Any
 
 from roslings.capabilities.services.faults import ClientStays, WrongExitCode
 from roslings.judge.faults import Fault
-from roslings.judge.faults.processes import READ_THE_LINES, DidNotComeUp
+from roslings.judge.faults.moments import When
+from roslings.judge.faults.processes import READ_THE_LINES, DidNotComeUp, shows_error
+from roslings.judge.faults.sentences import one_of
 
-AT_ITS_END = "when its task is done"
+AT_ITS_END = When("done")
 
 
 @dataclass(eq=False)
@@ -27,6 +29,7 @@ class NoAnswerYet(Fault):
 class WrongPrediction(Fault):
     """The run showed something else."""
 
+    UNTOLD = ("log", "shown", "because")
     said: Any
     shown: Any
     because: str
@@ -65,14 +68,16 @@ class NeverSpins(Fault):
 class ScriptMakesNoNode(DidNotComeUp):
     """A script ended before its node could do anything, or no node of it can be found."""
 
+    hint = one_of(
+        hidden="It runs, but nobody finds it. Which line says who may find it, and where?",
+        by_hand="Run it by hand with `bash`, and read from the top. Compare each name by its"
+        " letters.",
+    )
+
     @property
-    def hint(self) -> str:
+    def which_hint(self) -> str:
         """What to look at in a script."""
-        if "no node of it" in self.how:
-            return "It runs, but nobody finds it. Which line says who may find it, and where?"
-        return (
-            "Run it by hand with `bash`, and read from the top. Compare each name by its letters."
-        )
+        return "hidden" if self.after_s is None else "by_hand"
 
 
 @dataclass(eq=False)
@@ -84,17 +89,21 @@ class NotPrinted(Fault):
     why = "What a program prints is all that you see of it in a terminal."
     expected = "the output holds {wanted!r}"
 
-    @property
-    def measured(self) -> str:
-        """The nearest line or the first one, or that there is none."""
-        return f"it printed {self.found!r}" if self.found else "it printed nothing"
+    measured = one_of(another="it printed {found!r}", nothing="it printed nothing")
+    hint = one_of(
+        read=READ_THE_LINES,
+        by_hand="Run the file by hand in a terminal, and read what it prints from the top.",
+    )
 
     @property
-    def hint(self) -> str:
+    def which_measured(self) -> str:
+        """The nearest line or the first one, or that there is none."""
+        return "another" if self.found else "nothing"
+
+    @property
+    def which_hint(self) -> str:
         """Read its last words, or run it by hand."""
-        if any(line.startswith("Traceback") for line in self.log):
-            return READ_THE_LINES
-        return "Run the file by hand in a terminal, and read what it prints from the top."
+        return "read" if shows_error(self.log) else "by_hand"
 
 
 @dataclass(eq=False)
@@ -131,7 +140,10 @@ class CancelUnheard(Fault):
     measured = "nobody heard the request to cancel: the goal was over before"
     why = "A robot that hears Stop only when it has arrived does not stop."
     hint = "Who hears a request to cancel, while the execute callback works?"
-    mend = "Who hears it while the execute callback works? It needs a thread of its own."
+    mend = (
+        "Who hears it while the execute callback works? Let the loop await a tick, so that it does"
+        " not keep the thread; or give the node a second thread."
+    )
 
 
 @dataclass(eq=False)

@@ -12,7 +12,7 @@ from roslings.capabilities.actions.contract import ActionContract
 from roslings.capabilities.actions.demands import perform, perform_its_type, send_goal
 from roslings.capabilities.actions.goals import Goal, GoalGiver
 from roslings.capabilities.actions.handling import (
-    Given,
+    GivenGoal,
     feedback_of,
     require_accepted,
     require_no_error,
@@ -25,11 +25,12 @@ from roslings.capabilities.actions.record import ActionsSeen, GoalLimits, GoalSe
 from roslings.course import NodeContract
 from roslings.experiment import Scene
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
-from roslings.judge import ExperimentView, NothingToJudge
+from roslings.judge import ExperimentView
 from roslings.judge.demands import require_steady
 from roslings.judge.values import same
 from roslings_learn.drills.card import DrillCard, Give, Take
 from roslings_learn.drills.faults import CancelUnheard, WrongGoal
+from roslings_learn.drills.reasons import NothingShown
 from roslings_learn.drills.terminal import Look
 
 ANSWER_WITHIN_S, ENDS_WITHIN_S = 1.0, 2.0
@@ -115,8 +116,8 @@ def _handles(node: NodeContract, give: Give, number: int) -> Look:
     def demand(view: ExperimentView) -> None:
         goal = next((g for g in view.seen.part(ActionsSeen).goals if g.part == f"{number}"), None)
         if goal is None:
-            raise NothingToJudge(f"no goal could be given to {give.action}")
-        given = Given(goal, view.process(node))
+            raise NothingShown("no_goal", give.action)
+        given = GivenGoal(goal, view.process(node))
         if give.accepted:
             require_accepted(view, given, give.when)
             _require_end(view, give, given)
@@ -126,7 +127,7 @@ def _handles(node: NodeContract, give: Give, number: int) -> Look:
     return demand
 
 
-def _require_end(view: ExperimentView, give: Give, given: Given) -> None:
+def _require_end(view: ExperimentView, give: Give, given: GivenGoal) -> None:
     goal = given.goal
     require_no_error(given)
     if len(feedback_of(view, given)) < give.feedback:

@@ -6,8 +6,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
+from pydantic import JsonValue
+
+from ros2_on_pip.language import said
 from roslings.judge import ExperimentView
 from roslings.judge.faults import Fault, NothingToJudge
+from roslings.judge.faults.reasons import CheckAgain
 from roslings.judge.floods import flood_in
 from roslings.judge.outcome import words_for
 from roslings.verdict import CheckResult
@@ -40,11 +44,11 @@ class DrillVerdict:
     def headline(self) -> str:
         """The cause, in one line: Python's own last word where the program ended with one."""
         if self.first is None:
-            return "it does all that is asked"
+            return said("drill.all_well", "it does all that is asked")
         lines = [line for line in self.first.log if line.strip()]
         if any(line.startswith("Traceback") for line in lines):
             return _last_error(lines) or self.first.measured or lines[-1]
-        if lines and "exit code" in (said := self.first.measured or "") and "code 0" not in said:
+        if lines and self.first.exit_code:
             return next((line for line in lines if not line.startswith("[INFO]")), lines[-1])
         return self.first.measured or self.first.why or self.first.title
 
@@ -58,11 +62,22 @@ class DrillVerdict:
             if (text := getattr(self.first, name))
         }
         log = tuple(line.replace(folder, "") for line in self.first.log)
-        return replace(self, first=self.first.model_copy(update={**said, "log": log}))
+        fields = _without(folder, self.first.fields)
+        changed = {**said, "log": log, "fields": fields}
+        return replace(self, first=self.first.model_copy(update=changed))
 
     def taking(self, seconds: float) -> DrillVerdict:
         """The same, with its seconds."""
         return replace(self, seconds=seconds)
+
+
+def _without(folder: str, value: JsonValue) -> JsonValue:
+    """A value with the texts in it cut."""
+    if isinstance(value, str):
+        return value.replace(folder, "")
+    if isinstance(value, dict):
+        return {name: _without(folder, each) for name, each in value.items()}
+    return [_without(folder, each) for each in value] if isinstance(value, list) else value
 
 
 def _is_error(line: str) -> bool:
@@ -117,5 +132,5 @@ def result_of(step: Step, error: Exception) -> CheckResult:
     if isinstance(error, Fault):
         words["measured"] = error.headline  # a drill's verdict begins with it
     if isinstance(error, NothingToJudge):
-        words = {"outcome": "inconclusive", "why": f"{error}; check again"}
+        words = {"outcome": "inconclusive", "why": str(CheckAgain(error))}
     return CheckResult(id=step.name, title=step.title, points=0.0, max_points=0.0, **words)

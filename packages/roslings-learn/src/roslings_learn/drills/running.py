@@ -1,7 +1,7 @@
 """Run a drill's program behind the machine's wall, and judge what was seen, all in one process.
 
-The process is a fork of one that has loaded ROS and the judge: a drill begun in `watch` waits for
-nothing but its own program. Who may fork stands in `experiment.forked`.
+The process is a fork of one that has loaded ROS and the judge. So a drill begun in `watch` waits
+for nothing but its own program. Who may fork stands in `experiment.forked`.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ from typing import Any
 from ros2_on_pip.errors import INCONCLUSIVE, RoslingsError
 from roslings.arena import Installed, Isolation, choose_isolation, kernel, ros_environment
 from roslings.arena.environment import base_environment
+from roslings.course.grader import Experiment, load_grader
 from roslings.evidence import ExperimentSeen
-from roslings.exits import must_end_again
 from roslings.experiment.assignment import Assignment
-from roslings.experiment.measuring import Stage
+from roslings.experiment.measuring import MeasuringContext
 from roslings.experiment.preload import TYPES
 from roslings.experiment.run_folder import run_folder
 from roslings.experiment.scene import Scene
-from roslings.grader import Experiment, load_grader
 from roslings.judge import ExperimentView, Fault
 from roslings.judge.faults import SyntaxErrorInCode
 from roslings.probe.preload import load_ros
+from roslings.seen.exits import must_end_again
 from roslings_learn.drills.answers import require_answer
 from roslings_learn.drills.card import PROGRAM
 from roslings_learn.drills.course import Drill
@@ -215,7 +215,7 @@ def _live(
         return
     installed = _installed(drill, name, source, assignment)
     said = readable(drill, name, source) if drill.card.answer else None
-    verdict = _verdict(drill, said, Stage(installed, assignment, ENDS_WITHIN_S))
+    verdict = _verdict(drill, said, MeasuringContext(installed, assignment, ENDS_WITHIN_S))
     answer.send(verdict.without(f"{installed.folder}{os.sep}"))
     os._exit(0)  # the interpreter's own end takes 0.2 s, and leaves nothing that we need
 
@@ -258,7 +258,7 @@ def _executable(path: Path, program: str, file: Path) -> None:
     path.chmod(0o755)
 
 
-def _verdict(drill: Drill, said: Any, stage: Stage) -> DrillVerdict:
+def _verdict(drill: Drill, said: Any, stage: MeasuringContext) -> DrillVerdict:
     """Run and judge, and no longer than until a verdict stands: the student waits for it."""
     steps, before = _steps(drill, said), list[ExperimentSeen]()
     for seen in _runs(drill, stage):
@@ -270,7 +270,7 @@ def _verdict(drill: Drill, said: Any, stage: Stage) -> DrillVerdict:
     return replace(verdict, because=answer.because if answer else "")
 
 
-def _runs(drill: Drill, stage: Stage) -> Iterator[ExperimentSeen]:
+def _runs(drill: Drill, stage: MeasuringContext) -> Iterator[ExperimentSeen]:
     """As of a lab's experiment; what is in doubt after those is run again, in real time."""
     experiment = Experiment(
         drill.name,

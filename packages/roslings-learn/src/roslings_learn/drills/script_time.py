@@ -1,8 +1,8 @@
 """Time as a script had it: without what its programs worked, and what they waited to work.
 
 A script runs one program after the other. Each loads, for a second on a fast computer and for four
-on a slow one, and each waits for a processor in its turn: so what they waited is added up, where of
-a node's threads, which wait at the same time, the longest wait counts.
+on a slow one. And each waits for a processor in its turn, so what they waited is added up. A node's
+threads wait at the same time, so there the longest wait counts.
 """
 
 from __future__ import annotations

@@ -12,7 +12,9 @@ from itertools import starmap
 from typing import Any
 
 from roslings.capabilities.actions.record import ActionsSeen
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.parameters.demands import declare_its_parameters
+from roslings.capabilities.services.contract import ServiceWords
 from roslings.capabilities.services.demands import (
     answer_each,
     ask,
@@ -30,12 +32,12 @@ from roslings.capabilities.topics.demands import (
     say_its_text,
     say_something,
 )
-from roslings.capabilities.topics.relay import Shown, hold_its_fields, show
+from roslings.capabilities.topics.relay import RelayedValue, hold_its_fields, show
 from roslings.course import NodeContract, TopicContract
+from roslings.course.contract import Plain
 from roslings.evidence import ExperimentSeen
 from roslings.judge import (
     ExperimentView,
-    NothingToJudge,
     be_named,
     be_the_only_one,
     be_there,
@@ -50,14 +52,16 @@ from roslings.judge import (
 )
 from roslings.judge.demands import most_similar, require_its_time, require_steady
 from roslings.judge.faults import NotLogged
-from roslings.judge.values import shown
+from roslings.judge.faults.moments import AfterTold, Awaited
+from roslings.judge.values import Fields, shown
 from roslings.judge.views import Demand, EndpointView, NodeView, ProcessView, TopicView
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 from roslings_learn.drills import faults
 from roslings_learn.drills.answers import compare
 from roslings_learn.drills.card import PROGRAM, DrillCard, Tell
 from roslings_learn.drills.faults import AT_ITS_END
 from roslings_learn.drills.goals import demands_of
+from roslings_learn.drills.reasons import NothingShown
 from roslings_learn.drills.terminal import (
     Look,
     ends_by_itself,
@@ -143,7 +147,7 @@ def _of_processes(card: DrillCard) -> Iterator[Step]:
         yield Step("runs", title, _of_process(card.nodes[0], _does_its_task))
     for node in card.nodes:
         yield from _of_endpoints(node)
-        if node.parameters:
+        if node.of(ParameterWords).parameters:
             title = "It has the parameters that the card names."
             yield Step("parameter", title, _of_all(declare_its_parameters(node)))
 
@@ -159,7 +163,7 @@ def _of_what_stays(card: DrillCard) -> Iterator[Step]:
 
 
 def _does_its_task(process: ProcessView) -> None:
-    require_no_crash(process, "does its task")
+    require_no_crash(process, "task")
 
 
 def _unless_asked(node: NodeContract, look: Demand[ProcessView]) -> Look:
@@ -240,12 +244,13 @@ def _hears(view: ExperimentView, node: NodeContract) -> None:
 
 
 def _of_services(node: NodeContract) -> Iterator[Step]:
-    for service in node.serves:
+    services = node.of(ServiceWords)
+    for service in services.serves:
         title = f"It serves {service.service}, type {service.type}."
         yield Step("service", title, _of_all(serve(service), serve_their_types(service)))
         title = f"{service.service} gives the answers of the card."
         yield Step("answers", title, _of_all(answer_each(node, service)))
-    for service in node.calls:
+    for service in services.calls:
         title = f"It calls {service.service} with the card's request."
         yield Step("asks", title, _of_all(ask(node, service)))
         if node.log:
@@ -290,9 +295,9 @@ def _shows(card: DrillCard, number: int, field: str) -> Look:
     tell = card.tells[number]
     assert tell.publishes
     wanted, told = tell.publishes.fields[field], nested(tell.message)
-    place = Shown(card.nodes[0], next(iter(tell.message)), tell.publishes, field)
+    place = RelayedValue(card.nodes[0], next(iter(tell.message)), tell.publishes, field)
 
-    def asked(turn: int, said: dict[str, Any]) -> Any:
+    def asked(turn: int, said: Fields) -> Plain | None:
         return wanted if (turn, said) == (number, told) else None
 
     return _of_all(show(place, asked))
@@ -302,12 +307,12 @@ def _writes(tell: Tell, line: str) -> Look:
     def demand(view: ExperimentView) -> None:
         spoken = [each for each in view.seen.spoken if each.content == nested(tell.message)]
         if not spoken:
-            raise NothingToJudge(f"nothing could be said on {tell.topic}")
+            raise NothingShown("not_said", tell.topic)
         texts = view.labelled(PROGRAM).texts
         if not any(line in text for text in texts):
-            require_its_time(view.seen, None, 0.0, "its line")
+            require_its_time(view.seen, None, 0.0, Awaited("its_line"))
             told = ", ".join(f"{name} {shown(value)}" for name, value in tell.message.items())
-            when = f"after {told} on {spoken[0].topic}"
+            when = AfterTold(told, spoken[0].topic)
             raise NotLogged(PROGRAM, line, most_similar(line, texts), when=when)
 
     return demand

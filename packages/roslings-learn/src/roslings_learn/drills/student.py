@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from roslings.workspace.errors import NoFile, NotThere, reading, writing
+from roslings.workspace.errors import NotAFile, NotThere, reading, writing
 from roslings.workspace.progress import read_progress
 from roslings.workspace.progress_file import DrillProgress
 from roslings.workspace.student import workspace_root
@@ -34,7 +34,7 @@ def file_of(drill: Drill, workspace: Path | None = None) -> Path:
 
 
 def program_in(file: Path, drill: Drill) -> bytes:
-    """The student's program. Raises NotThere, NoFile, CannotRead."""
+    """The student's program. Raises NotThere, NotAFile, CannotRead."""
     with reading(file):
         try:
             return file.read_bytes()
@@ -43,13 +43,14 @@ def program_in(file: Path, drill: Drill) -> bytes:
         except OSError:
             if file.is_file():
                 raise
-            raise NoFile(file) from None
+            raise NotAFile(file) from None
 
 
 def start(drill: Drill, workspace: Path | None = None) -> tuple[Path, bool]:
     """Put the starter into the workspace, never over what is there; file, and whether it is new.
 
-    What runs beside it comes along, so that it can be run by hand. Raises DiskFull, CannotWrite.
+    What runs beside it comes along, so that it can be run by hand. Raises DiskFull,
+    CannotWriteFolder.
     """
     file = file_of(drill, workspace)
     _put_companion(drill, file.parent)
@@ -72,7 +73,7 @@ def is_changed(drill: Drill, workspace: Path | None = None) -> bool:
 def begin_again(drill: Drill, workspace: Path | None = None) -> Path:
     """Put the starter back in place of the student's file; where that is kept.
 
-    Raises DiskFull, CannotWrite.
+    Raises DiskFull, CannotWriteFolder.
     """
     file = file_of(drill, workspace)
     kept = _free_name(file)

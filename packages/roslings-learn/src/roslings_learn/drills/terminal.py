@@ -9,7 +9,7 @@ from roslings.judge import ExperimentView, come_up
 from roslings.judge.demands import require_steady
 from roslings.judge.faults import DidNotComeUp
 from roslings.judge.views import ProcessView
-from roslings.judge.words import describe_end
+from roslings.judge.words import end_of
 from roslings_learn.drills import faults
 from roslings_learn.drills.card import PROGRAM, DrillCard
 
@@ -55,7 +55,7 @@ def ends_by_itself(exit_code: int) -> Look:
                 PROGRAM,
                 faults.AT_ITS_END,
                 exit_code,
-                describe_end(process.seen),
+                end_of(process.seen),
                 log=process.last_lines(),
             )
 
@@ -67,7 +67,9 @@ def script_comes_up(process: ProcessView) -> None:
     try:
         come_up(process)
     except DidNotComeUp as fault:
-        raise faults.ScriptMakesNoNode(fault.executable, fault.how, log=fault.log) from None
+        raise faults.ScriptMakesNoNode(
+            fault.executable, fault.after_s, fault.end, log=fault.log
+        ) from None
 
 
 def steps_of_output(card: DrillCard) -> Iterator[tuple[str, str, Look]]:

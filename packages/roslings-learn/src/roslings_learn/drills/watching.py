@@ -14,7 +14,9 @@ from typing import Any
 import ros2_on_pip
 from roslings.arena import Process
 from roslings.capabilities.parameters.act import list_parameters
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.services.act import Asker, answering, await_end
+from roslings.capabilities.services.contract import ServiceWords
 from roslings.capabilities.services.graph import read_services
 from roslings.capabilities.services.record import ServicesSeen
 from roslings.capabilities.topics.act import Teller, nested
@@ -24,7 +26,7 @@ from roslings.experiment import Scene
 from roslings.experiment.missed import hears, publishes
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.start import Start
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 from roslings_learn.drills.card import PROGRAM, DrillCard
 from roslings_learn.drills.goals import give_goals, take_goal
 from roslings_learn.drills.script_time import LONGEST_S, ScriptTime
@@ -37,6 +39,8 @@ SHOWS_WITHIN_S = 0.4
 TURNS_WITHIN_S = 0.8
 """Of its own time: a node that answers nothing for so long runs no callback."""
 ASKS_WITHIN_S = 0.8
+LOOKS_AT_REST = 3
+"""A program that was asleep at so many looks, one after the other, waits for something."""
 COMES_UP_WITHIN_S, SHOWN_WITHIN_S = 5.0, 0.6
 """A node is in the graph some tenths of a second after its program has begun to speak."""
 PRINTS_WITHIN_S, ENDS_WITHIN_S = 2.5, 8.0
@@ -139,7 +143,7 @@ def _watch_all(card: DrillCard, scene: Scene, process: Process) -> None:
 def _watch_what_comes(card: DrillCard, scene: Scene, process: Process) -> None:
     """Of a node that runs its callbacks, and that can be found."""
     published = [topic for node in card.nodes for topic in node.publishes]
-    if any(node.parameters for node in card.nodes):
+    if any(node.of(ParameterWords).parameters for node in card.nodes):
         list_parameters(scene, card.nodes[0])
     if published and not card.tells:
         _watch_first(published[0], card, scene)
@@ -171,10 +175,10 @@ def _watch_first(topic: TopicContract, card: DrillCard, scene: Scene) -> None:
     if topic.rate or topic.text or topic.fields or card.answer:
         scene.watch(topic)
     else:
-        scene.appears(lambda: _mouth(scene, topic) is not None, publishes(topic))
+        scene.appears(lambda: _publisher(scene, topic) is not None, publishes(topic))
 
 
-def _mouth(scene: Scene, topic: TopicContract) -> Endpoint | None:
+def _publisher(scene: Scene, topic: TopicContract) -> Endpoint | None:
     return nearest_endpoint(scene.seen.graph, "publisher", topic.topic, topic.type)
 
 
@@ -194,21 +198,23 @@ def _let_spin(card: DrillCard, scene: Scene, process: Process) -> None:
 def _talk_with(node: NodeContract, card: DrillCard, scene: Scene, process: Process) -> None:
     for topic in node.subscribes if not card.tells else ():
         _say_sentences(topic, card.says, scene, process)
-    if node.serves:
+    services = node.of(ServiceWords)
+    if services.serves:
         asker = Asker(scene, process, node)
-        for service in node.serves:
+        for service in services.serves:
             asker.ask_in_a_row(service, service.answers, len(service.answers), service.service)
-    for service in node.calls:
+    for service in services.calls:
+        _await_client(scene, process)
         with answering(scene, service, service.answers[0].response):  # a little late, as real ones
             _await_request(node, card, scene, process)
 
 
 def _say_sentences(topic: TopicContract, count: int, scene: Scene, process: Process) -> None:
     """The first one is said once before it counts, as `Teller` does with values."""
-    ear = _hears(topic, scene)
-    if ear and count:
+    subscription = _hears(topic, scene)
+    if subscription and count:
         said, first = len(scene.seen.spoken), scene.sentence()
-        _tell(ear, {"data": first}, first, scene, process)
+        _tell(subscription, {"data": first}, first, scene, process)
         del scene.seen.spoken[said:]
         scene.say_sentences(process, topic, count)
 
@@ -220,26 +226,26 @@ def _hears(topic: TopicContract, scene: Scene) -> Endpoint | None:
         return nearest_endpoint(scene.seen.graph, "subscription", topic.topic, topic.type)
 
     scene.appears(lambda: find() is not None, hears(topic))
-    ear = find()
-    return ear if ear and ear.type == topic.type else None
+    subscription = find()
+    return subscription if subscription and subscription.type == topic.type else None
 
 
 def _tell_each(card: DrillCard, scene: Scene, process: Process) -> None:
     """Each value, and wait for what must come of it."""
     tellers: dict[tuple[str, str], Teller] = {}
     for tell in card.tells:
-        ear = _hears(tell.heard, scene)
-        if ear and tell.publishes:
+        subscription = _hears(tell.heard, scene)
+        if subscription and tell.publishes:
             way = tell.topic, tell.publishes.topic
             if way not in tellers:
                 tellers[way] = Teller(scene, process, tell.heard, tell.publishes)
             tellers[way].tell(tell.message)
-        elif ear and tell.log:
-            _tell(ear, tell.message, tell.log, scene, process)
+        elif subscription and tell.log:
+            _tell(subscription, tell.message, tell.log, scene, process)
 
 
 def _tell(
-    ear: Endpoint, fields: Mapping[str, Any], line: str, scene: Scene, process: Process
+    subscription: Endpoint, fields: Mapping[str, Any], line: str, scene: Scene, process: Process
 ) -> None:
     """Say one message, and wait for its line; once more where the node may not have heard it.
 
@@ -249,12 +255,32 @@ def _tell(
     written = functools.partial(scene.is_written, process, line)
     for _ in range(TRIES):
         del scene.seen.spoken[said:]
-        scene.probe.say(ear, nested(fields), FIRST_MESSAGE_WITHIN_S)
+        scene.probe.say(subscription, nested(fields), FIRST_MESSAGE_WITHIN_S)
         if not scene.until_own(written, SHOWS_WITHIN_S) and process.alive:
-            scene.turned(ear.node, TURNS_WITHIN_S)
+            scene.turned(subscription.node, TURNS_WITHIN_S)
             scene.until_own(written, SHOWS_WITHIN_S)
         if written() or not process.alive:
             return
+
+
+def _await_client(scene: Scene, process: Process) -> None:
+    """Until its client is in the graph, and it waits: who asks at once has asked nobody then.
+
+    On a busy computer a server that comes up any sooner may be there before a hasty request.
+    """
+    looks = 0
+
+    def has_asked_nobody() -> bool:
+        nonlocal looks
+        looks = looks + 1 if process.asleep() else 0
+        return looks >= LOOKS_AT_REST and _has_client(scene)
+
+    scene.until_own(has_asked_nobody, ASKS_WITHIN_S)
+
+
+def _has_client(scene: Scene) -> bool:
+    ends = read_services(scene.probe.node, scene.seen.graph.nodes)
+    return any(end.kind == "client" for end in ends)
 
 
 def _await_request(node: NodeContract, card: DrillCard, scene: Scene, process: Process) -> None:
@@ -274,7 +300,7 @@ def _await_request(node: NodeContract, card: DrillCard, scene: Scene, process: P
 
 def _has_asked(scene: Scene) -> bool:
     """Whether a request came. Whom the program may call is noted: it may soon be gone."""
-    ends = read_services(scene.probe.eye, scene.seen.graph.nodes)
+    ends = read_services(scene.probe.node, scene.seen.graph.nodes)
     seen = scene.seen.recording(ServicesSeen)
     seen.ends = ends or seen.ends
     return bool(seen.served)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from roslings_learn.jupyter.copies import Copies
 from roslings_learn.jupyter.errors import NoSuchDay, NotWritten
-from roslings_learn.jupyter.server import Place
+from roslings_learn.jupyter.server import JupyterOptions
 from roslings_learn.lessons import Day
 
 
@@ -39,7 +39,7 @@ def _today(days: tuple[Day, ...], copies: Copies) -> Day | None:
 
 def place_for(
     wanted: str | None, days: tuple[Day, ...], copies: Copies, port: int | None, browser: bool
-) -> Place:
+) -> JupyterOptions:
     """Where JupyterLab is to open. Raises NoSuchDay, NotWritten."""
     day = chosen_day(wanted, days, copies)
-    return Place(copies, day.id if day else None, port, browser)
+    return JupyterOptions(copies, day.id if day else None, port, browser)

@@ -66,7 +66,7 @@ class Copies:
     def copy_all(self, days: tuple[Day, ...]) -> list[str]:
         """Bring what is missing and list the days; returns what a student should know.
 
-        Raises DiskFull and CannotWrite of the workspace.
+        Raises DiskFull and CannotWriteFolder of the workspace.
         """
         told: list[str] = []
         with writing(self.folder):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ros2_on_pip.errors import RoslingsError
+from ros2_on_pip.language import said
 from roslings_learn.lessons import Day
 
 
@@ -15,16 +16,16 @@ class NoSuchDay(NoLessonToOpen):
 
     def __init__(self, wanted: str, days: tuple[Day, ...]) -> None:
         there = "\n".join(f"  {day.number}  {day.id}" for day in days)
-        super().__init__(f"There is no day {wanted!r}. The days are:\n{there}")
+        text = "There is no day {wanted!r}. The days are:\n{there}"
+        super().__init__(said("lab.no_such_day", text, wanted=wanted, there=there))
 
 
 class NotWritten(NoLessonToOpen):
     """The day has no lesson yet."""
 
     def __init__(self, day: Day) -> None:
-        super().__init__(
-            f"{day.name} has no notebook yet. To see the days that have one: ./roslings lab"
-        )
+        text = "{day} has no notebook yet. To see the days that have one: ./roslings lab"
+        super().__init__(said("lab.not_written", text, day=day.name))
 
 
 class NoHub(NoLessonToOpen):

@@ -1,6 +1,6 @@
 """JupyterLab with the course's kernel, on the right day.
 
-Nothing is written into the student's home but the notebooks: kernel and settings go into the
+Nothing is written into the student's home but the notebooks. Kernel and settings go into the
 environment, at each start, so that they are right wherever the clone lies now. Where many use one
 installation, nobody may write there: then they lie in the student's workspace.
 """
@@ -48,7 +48,7 @@ SETTINGS = {
 
 
 @dataclass(frozen=True)
-class Place:
+class JupyterOptions:
     """What to open, and how."""
 
     copies: Copies
@@ -70,7 +70,7 @@ class Place:
         return quote(f"/lab/tree/{self.copies.path_of(self.copies.folder / LIST)}")
 
 
-def open_lab(place: Place) -> int:
+def open_lab(place: JupyterOptions) -> int:
     """Run JupyterLab until Ctrl-C; returns its exit code.
 
     Raises NoHub, BadDomain, NoFreeDomain, and what cannot be written in the workspace.
@@ -104,7 +104,7 @@ def _domain() -> tuple[int, socket]:
     return domain, held
 
 
-def command(place: Place, share: Path) -> list[str]:
+def command(place: JupyterOptions, share: Path) -> list[str]:
     """The server's command line; kernel and settings lie in `share`."""
     words = [
         f"--ServerApp.root_dir={place.copies.root}",
@@ -164,11 +164,11 @@ def _of_machine(variables: Mapping[str, str]) -> list[str]:
     return words
 
 
-def _of_hub(place: Place) -> list[str]:
+def _of_hub(place: JupyterOptions) -> list[str]:
     return [f"--ServerApp.default_url={place.page}"]
 
 
-def _alone(place: Place) -> list[str]:
+def _alone(place: JupyterOptions) -> list[str]:
     words = [f"--LabApp.default_url={place.page}"]
     if place.port is not None:
         words += [f"--ServerApp.port={place.port}", "--ServerApp.port_retries=0"]

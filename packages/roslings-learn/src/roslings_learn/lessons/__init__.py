@@ -4,26 +4,36 @@ Reads `days/path.yaml`, `glossary/*.yaml` and `days/*/quiz.yaml`, and checks the
 other. A mistake is told with file, line and mend; all mistakes are told at once.
 """
 
-from roslings_learn.lessons.document import BadLessons, Problem
+from roslings_learn.lessons.document import BadLessons, DocumentProblem
 from roslings_learn.lessons.glossary import Category, Glossary, Term
-from roslings_learn.lessons.lessons import Lessons, read_glossary, read_lessons
+from roslings_learn.lessons.lessons import Lessons, read_glossary
 from roslings_learn.lessons.path import Day
-from roslings_learn.lessons.quiz import Choice, Mistake, One, Order, Prints, Question, Quiz, Several
+from roslings_learn.lessons.quiz import (
+    CommonMistake,
+    One,
+    OrderQuestion,
+    Prints,
+    Question,
+    Quiz,
+    QuizChoice,
+    Several,
+)
+from roslings_learn.lessons.translated import read_lessons
 
 __all__ = [
     "BadLessons",
     "Category",
-    "Choice",
+    "CommonMistake",
     "Day",
+    "DocumentProblem",
     "Glossary",
     "Lessons",
-    "Mistake",
     "One",
-    "Order",
+    "OrderQuestion",
     "Prints",
-    "Problem",
     "Question",
     "Quiz",
+    "QuizChoice",
     "Several",
     "Term",
     "read_glossary",

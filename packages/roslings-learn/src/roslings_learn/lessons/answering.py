@@ -9,10 +9,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from string import ascii_lowercase
 
-from roslings_learn.lessons.quiz import Choice, One, Order, OrderedStep, Prints, Question, Several
+from ros2_on_pip.language import counted, said
+from roslings_learn.lessons.quiz import (
+    One,
+    OrderedStep,
+    OrderQuestion,
+    Prints,
+    Question,
+    QuizChoice,
+    Several,
+)
 
 
-class NoAnswer(Exception):
+class NotAnAnswer(Exception):
     """What was typed is no answer to this question; its text says what would be one."""
 
 
@@ -28,21 +37,22 @@ class Judged:
 def how_to_answer(question: Question) -> str:
     """What to type, in a few words."""
     if isinstance(question, Prints):
-        return "What does it print?"
+        return said("quiz.prints", "What does it print?")
     last = ascii_lowercase[len(_parts(question)) - 1]
     if isinstance(question, One):
-        return f"One letter, a to {last}:"
+        return said("quiz.one", "One letter, a to {last}:", last=last)
     if isinstance(question, Several):
-        return f"One or more letters, a to {last}, for example ac:"
-    return f"All letters, a to {last}, in the right order:"
+        several = "One or more letters, a to {last}, for example {example}:"
+        return said("quiz.several", several, last=last, example="ac")
+    return said("quiz.order", "All letters, a to {last}, in the right order:", last=last)
 
 
 def judged(question: Question, typed: str) -> Judged:
-    """Raises NoAnswer."""
+    """Raises NotAnAnswer."""
     if isinstance(question, Prints):
         return _printed(question, typed)
     places = _places(question, typed)
-    if isinstance(question, Order):
+    if isinstance(question, OrderQuestion):
         return _ordered(question, [question.shown[place] for place in places])
     return _chosen(question, places)
 
@@ -50,34 +60,36 @@ def judged(question: Question, typed: str) -> Judged:
 def right_answer(question: Question) -> list[str]:
     """The right answer with its reasons, a line for each part."""
     if isinstance(question, Prints):
-        return [f"It prints: {question.prints}", question.why]
-    if isinstance(question, Order):
+        return [said("quiz.it_prints", "It prints: {text}", text=question.prints), question.why]
+    if isinstance(question, OrderQuestion):
         steps = enumerate(question.steps, 1)
         return [f"{place}. {explained(step)}" for place, step in steps]
     named = zip(ascii_lowercase, question.choices, strict=False)
     return [f"{letter}) {choice.why}" for letter, choice in named if choice.right]
 
 
-def explained(part: Choice | OrderedStep) -> str:
+def explained(part: QuizChoice | OrderedStep) -> str:
     """A choice or a step with its reason, as one sentence."""
-    return f"{part.text.removesuffix('.')}: {part.why}"
+    text = part.text.removesuffix(".")
+    return said("quiz.explained", "{text}: {why}", text=text, why=part.why)
 
 
-def _parts(question: One | Several | Order) -> Sequence[Choice | OrderedStep]:
-    return question.steps if isinstance(question, Order) else question.choices
+def _parts(question: One | Several | OrderQuestion) -> Sequence[QuizChoice | OrderedStep]:
+    return question.steps if isinstance(question, OrderQuestion) else question.choices
 
 
-def _places(question: One | Several | Order, typed: str) -> list[int]:
+def _places(question: One | Several | OrderQuestion, typed: str) -> list[int]:
     """The places of the letters, in the order in which they were typed."""
     letters = [letter for letter in typed.lower() if letter not in " ,;)."]
     known = ascii_lowercase[: len(_parts(question))]
-    wanted = f"Type this: {how_to_answer(question).removesuffix(':')}."
+    how = how_to_answer(question).removesuffix(":")
+    wanted = said("quiz.type_this", "Type this: {how}.", how=how)
     if not letters or not set(letters) <= set(known) or len(letters) != len(set(letters)):
-        raise NoAnswer(wanted)
+        raise NotAnAnswer(wanted)
     if isinstance(question, One) and len(letters) > 1:
-        raise NoAnswer(wanted)
-    if isinstance(question, Order) and len(letters) < len(known):
-        raise NoAnswer(wanted)
+        raise NotAnAnswer(wanted)
+    if isinstance(question, OrderQuestion) and len(letters) < len(known):
+        raise NotAnAnswer(wanted)
     return [known.index(letter) for letter in letters]
 
 
@@ -87,23 +99,28 @@ def _chosen(question: One | Several, places: Sequence[int]) -> Judged:
     right = not missing and all(choice.right for choice in taken)
     if isinstance(question, One):
         return Judged(right, (taken[0].why,))
-    said = [explained(choice) for choice in taken]
-    more = ["Something that is right is not chosen yet."] if missing else []
-    return Judged(right, (*said, *more))
+    told = [explained(choice) for choice in taken]
+    missed = said("quiz.missed", "Something that is right is not chosen yet.")
+    more = [missed] if missing else []
+    return Judged(right, (*told, *more))
 
 
-def _ordered(question: Order, places: Sequence[int]) -> Judged:
+def _ordered(question: OrderQuestion, places: Sequence[int]) -> Judged:
     wrong = next((at for at, place in enumerate(places) if at != place), None)
     if wrong is None:
         return Judged(True, tuple(explained(step) for step in question.steps))
-    return Judged(False, (f"The first {wrong} are right." if wrong else "Another one is first.",))
+    if not wrong:
+        return Judged(False, (said("quiz.another_first", "Another one is first."),))
+    one, other = "The first {count} is right.", "The first {count} are right."
+    return Judged(False, (counted("quiz.first_right", wrong, one=one, other=other),))
 
 
 def _printed(question: Prints, typed: str) -> Judged:
     if not typed.strip():
-        raise NoAnswer("Type what the program prints.")
+        raise NotAnAnswer(said("quiz.type_output", "Type what the program prints."))
     text = " ".join(typed.split())
     if text == " ".join(question.prints.split()):
         return Judged(True, (question.why,))
     known = {" ".join(each.text.split()): each.why for each in question.mistakes}
-    return Judged(False, (known.get(text, "Read the code once more, line by line."),))
+    again = said("quiz.read_again", "Read the code once more, line by line.")
+    return Judged(False, (known.get(text, again),))

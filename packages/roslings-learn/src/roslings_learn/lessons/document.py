@@ -18,7 +18,7 @@ from roslings.course.files import child_of, loader
 Location = tuple[int | str, ...]
 
 
-class Part(BaseModel):
+class DocumentPart(BaseModel):
     """A part of a file; an unknown word in it is a mistake, not a comment."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", str_strip_whitespace=True)
@@ -28,7 +28,7 @@ Model = TypeVar("Model", bound=BaseModel)
 
 
 @dataclass(frozen=True, order=True)
-class Problem:
+class DocumentProblem:
     """One mistake in a file: where it is, what it is, how to mend it."""
 
     path: Path
@@ -43,7 +43,7 @@ class Problem:
 class BadLessons(RoslingsError):
     """Files of the lessons say what they may not say. Carries every problem found."""
 
-    def __init__(self, problems: list[Problem]) -> None:
+    def __init__(self, problems: list[DocumentProblem]) -> None:
         self.problems = tuple(sorted(set(problems)))
         super().__init__("\n".join(str(problem) for problem in self.problems))
 
@@ -66,9 +66,9 @@ class Document(Generic[Model]):
             (node.start_mark.line + 1 for node in _texts(self.tree) if text in node.value), 1
         )
 
-    def problem(self, what: str, mend: str, *location: int | str) -> Problem:
+    def problem(self, what: str, mend: str, *location: int | str) -> DocumentProblem:
         """A problem at a place of this file."""
-        return Problem(self.path, self.line(*location), what, mend)
+        return DocumentProblem(self.path, self.line(*location), what, mend)
 
 
 def read(path: Path, model: type[Model]) -> Document[Model]:
@@ -89,14 +89,16 @@ def _compose(path: Path) -> yaml.Node:
         tree = _composed(path.read_text("utf-8"))
     except FileNotFoundError:
         mend = "Write the file, or bring it back with git."
-        raise BadLessons([Problem(path, 1, "This file is missing.", mend)]) from None
+        raise BadLessons([DocumentProblem(path, 1, "This file is missing.", mend)]) from None
     except UnicodeDecodeError as error:
         mend = "Save it as UTF-8 in your editor."
-        raise BadLessons([Problem(path, 1, "This is not UTF-8 text.", mend)]) from error
+        raise BadLessons([DocumentProblem(path, 1, "This is not UTF-8 text.", mend)]) from error
     except yaml.YAMLError as error:
         raise BadLessons([_as_yaml_problem(path, error)]) from error
     if tree is None:
-        raise BadLessons([Problem(path, 1, "This file is empty.", "Write its first entry.")])
+        raise BadLessons(
+            [DocumentProblem(path, 1, "This file is empty.", "Write its first entry.")]
+        )
     return tree
 
 
@@ -118,10 +120,10 @@ def _values(path: Path, tree: yaml.Node) -> Any:
         raise BadLessons([_as_yaml_problem(path, error)]) from error
 
 
-def _as_yaml_problem(path: Path, error: yaml.YAMLError) -> Problem:
+def _as_yaml_problem(path: Path, error: yaml.YAMLError) -> DocumentProblem:
     said = getattr(error, "problem", None) or "it cannot be read"
     mend = "Look at this line and the one above. A text with ': ' in it needs quotes round it."
-    return Problem(path, _line_of_mark(error), f"This is not YAML: {said}.", mend)
+    return DocumentProblem(path, _line_of_mark(error), f"This is not YAML: {said}.", mend)
 
 
 def _line_of_mark(error: yaml.YAMLError) -> int:
@@ -131,14 +133,16 @@ def _line_of_mark(error: yaml.YAMLError) -> int:
     return mark.line + 1 if mark else 1
 
 
-def _doubled_keys(path: Path, node: yaml.Node) -> Iterator[Problem]:
+def _doubled_keys(path: Path, node: yaml.Node) -> Iterator[DocumentProblem]:
     """YAML's reader takes the last of two equal keys and says nothing."""
     if isinstance(node, yaml.MappingNode):
         seen = set[str]()
         for key, value in node.value:
             if key.value in seen:
                 line = key.start_mark.line + 1
-                yield Problem(path, line, f"The key '{key.value}' is there twice.", "Delete one.")
+                yield DocumentProblem(
+                    path, line, f"The key '{key.value}' is there twice.", "Delete one."
+                )
             seen.add(key.value)
             yield from _doubled_keys(path, value)
     elif isinstance(node, yaml.SequenceNode):
@@ -157,19 +161,21 @@ def _texts(node: yaml.Node) -> Iterator[yaml.ScalarNode]:
             yield from _texts(child)
 
 
-def _as_problem(path: Path, tree: yaml.Node, error: ErrorDetails) -> Problem:
+def _as_problem(path: Path, tree: yaml.Node, error: ErrorDetails) -> DocumentProblem:
     place = error["loc"]
     name = str(place[-1]) if place else "the file"
     line = line_of(tree, place)
     if error["type"] == "missing":
-        return Problem(path, line, f"'{name}' is missing.", f"Add a line '{name}: ...' here.")
+        return DocumentProblem(
+            path, line, f"'{name}' is missing.", f"Add a line '{name}: ...' here."
+        )
     if error["type"] == "extra_forbidden":
         mend = "Correct its spelling, or delete the line."
-        return Problem(path, line, f"'{name}' is not a word of this file.", mend)
+        return DocumentProblem(path, line, f"'{name}' is not a word of this file.", mend)
     if " | " in error["msg"]:  # our own words: what, and how to mend it
         what, _, mend = error["msg"].removeprefix("Value error, ").partition(" | ")
-        return Problem(path, line, what, mend)
-    return Problem(path, line, f"'{name}': {error['msg']}.", "Write a value of this kind.")
+        return DocumentProblem(path, line, what, mend)
+    return DocumentProblem(path, line, f"'{name}': {error['msg']}.", "Write a value of this kind.")
 
 
 def line_of(tree: yaml.Node, location: Location) -> int:

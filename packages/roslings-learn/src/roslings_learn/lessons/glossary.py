@@ -9,13 +9,13 @@ from functools import cached_property
 
 from pydantic import Field
 
-from roslings_learn.lessons.document import Part
+from roslings_learn.lessons.document import DocumentPart
 
 LINK = re.compile(r"\[([^\]]*)\]\(#word-([^)\s]*)\)")
 """How a text names a term: `[words on the page](#word-ID)`."""
 
 
-class Term(Part):
+class Term(DocumentPart):
     """One word in one sense."""
 
     id: str = Field(pattern=r"^[a-z][a-z0-9-]*$", description="Stable: links and anchors use it")
@@ -52,7 +52,7 @@ class Term(Part):
         return (self.name, *plural, *self.also)
 
 
-class Category(Part):
+class Category(DocumentPart):
     """One file of `glossary/`: the words of one field."""
 
     category: str

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path as File
 
-from roslings_learn.lessons.document import BadLessons, Document, Problem, nearest, read
+from roslings_learn.lessons.document import BadLessons, Document, DocumentProblem, nearest, read
 from roslings_learn.lessons.glossary import LINK, Category, Glossary, Term
 from roslings_learn.lessons.path import Day, Path
 from roslings_learn.lessons.quiz import Again, Question, Quiz, QuizFile
@@ -43,7 +43,7 @@ def read_lessons(root: File) -> Lessons:
 
     Raises BadLessons with every mistake, each with file, line and mend.
     """
-    problems: list[Problem] = []
+    problems: list[DocumentProblem] = []
     days = _days(root / "days" / "path.yaml", problems)
     glossary = _glossary(root, days, problems)
     quizzes = _quizzes(root, days, glossary, problems)
@@ -56,14 +56,14 @@ def read_lessons(root: File) -> Lessons:
 
 def read_glossary(root: File) -> Glossary:
     """Read the words alone. Raises BadLessons."""
-    problems: list[Problem] = []
+    problems: list[DocumentProblem] = []
     glossary = _glossary(root, _days(root / "days" / "path.yaml", problems), problems)
     if problems:
         raise BadLessons(problems)
     return glossary
 
 
-def _days(path: File, problems: list[Problem]) -> tuple[Day, ...]:
+def _days(path: File, problems: list[DocumentProblem]) -> tuple[Day, ...]:
     try:
         document = read(path, Path)
     except BadLessons as error:
@@ -78,16 +78,18 @@ def _days(path: File, problems: list[Problem]) -> tuple[Day, ...]:
     return days
 
 
-def _strange_folders(folder: File, days: tuple[Day, ...]) -> Iterator[Problem]:
+def _strange_folders(folder: File, days: tuple[Day, ...]) -> Iterator[DocumentProblem]:
     known = [day.id for day in days]
     for quiz in sorted(folder.glob("*/*")):
         day = quiz.parent.name
         if known and quiz.name in ("quiz.yaml", "lesson.ipynb") and day not in known:
             mend = nearest(day, known, "day") + " Days are named in days/path.yaml."
-            yield Problem(quiz, 1, f"There is no day '{day}'.", mend)
+            yield DocumentProblem(quiz, 1, f"There is no day '{day}'.", mend)
 
 
-def _unknown_senses(path: File, days: tuple[Day, ...], glossary: Glossary) -> Iterator[Problem]:
+def _unknown_senses(
+    path: File, days: tuple[Day, ...], glossary: Glossary
+) -> Iterator[DocumentProblem]:
     document = read(path, Path) if days and glossary.by_id else None
     for index, day in enumerate(days):
         for place, sense in enumerate(day.senses):
@@ -98,7 +100,7 @@ def _unknown_senses(path: File, days: tuple[Day, ...], glossary: Glossary) -> It
 # --- the words ---------------------------------------------------------------------------------
 
 
-def _glossary(root: File, days: tuple[Day, ...], problems: list[Problem]) -> Glossary:
+def _glossary(root: File, days: tuple[Day, ...], problems: list[DocumentProblem]) -> Glossary:
     documents: list[Document[Category]] = []
     for path in sorted((root / "glossary").glob("*.yaml")):
         try:
@@ -113,7 +115,7 @@ def _glossary(root: File, days: tuple[Day, ...], problems: list[Problem]) -> Glo
 
 def _cross_checked(
     documents: list[Document[Category]], glossary: Glossary, days: tuple[Day, ...]
-) -> Iterator[Problem]:
+) -> Iterator[DocumentProblem]:
     located = [
         (document, index, term)
         for document in documents
@@ -128,7 +130,7 @@ def _cross_checked(
                 yield _unknown_term(document, sense, glossary, "senses", index)
 
 
-def _doubled_terms(located: list[Located]) -> Iterator[Problem]:
+def _doubled_terms(located: list[Located]) -> Iterator[DocumentProblem]:
     ids: dict[str, str] = {}
     titles: dict[str, str] = {}
     for document, index, term in located:
@@ -141,7 +143,7 @@ def _doubled_terms(located: list[Located]) -> Iterator[Problem]:
             seen.setdefault(key, here)
 
 
-def _unknown_in(located: Located, glossary: Glossary, days: set[int]) -> Iterator[Problem]:
+def _unknown_in(located: Located, glossary: Glossary, days: set[int]) -> Iterator[DocumentProblem]:
     document, index, term = located
     for place, other in enumerate(term.see):
         if other not in glossary.by_id:
@@ -163,24 +165,24 @@ def _unknown_term(
     wanted: str,
     glossary: Glossary,
     *place: int | str,
-) -> Problem:
+) -> DocumentProblem:
     mend = nearest(wanted, list(glossary.by_id), "term")
     return document.problem(f"There is no term '{wanted}'.", mend, *place)
 
 
 def _unknown_link(
     document: Document[Category] | Document[QuizFile], wanted: str, glossary: Glossary
-) -> Problem:
+) -> DocumentProblem:
     mend = nearest(wanted, list(glossary.by_id), "term")
     line = document.line_with(f"#word-{wanted})")
-    return Problem(document.path, line, f"There is no term '{wanted}'.", mend)
+    return DocumentProblem(document.path, line, f"There is no term '{wanted}'.", mend)
 
 
 # --- the quizzes -------------------------------------------------------------------------------
 
 
 def _quizzes(
-    root: File, days: tuple[Day, ...], glossary: Glossary, problems: list[Problem]
+    root: File, days: tuple[Day, ...], glossary: Glossary, problems: list[DocumentProblem]
 ) -> tuple[Quiz, ...]:
     known: dict[str, Question] = {}
     documents: list[tuple[Day, Document[QuizFile]]] = []
@@ -200,7 +202,10 @@ def _quizzes(
 
 
 def _questions(
-    document: Document[QuizFile], day: Day, known: dict[str, Question], problems: list[Problem]
+    document: Document[QuizFile],
+    day: Day,
+    known: dict[str, Question],
+    problems: list[DocumentProblem],
 ) -> tuple[Question, ...]:
     """The questions of a day; `known` has those of the days before it, and gets its own."""
     earlier = dict(known)
@@ -230,7 +235,7 @@ def _wrong_id(
     return None
 
 
-def _unknown_in_quiz(document: Document[QuizFile], glossary: Glossary) -> Iterator[Problem]:
+def _unknown_in_quiz(document: Document[QuizFile], glossary: Glossary) -> Iterator[DocumentProblem]:
     for entry in document.content.questions:
         texts = () if isinstance(entry, Again) else entry.texts()
         for text in texts:

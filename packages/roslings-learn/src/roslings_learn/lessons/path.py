@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from roslings_learn.lessons.document import Part
+from ros2_on_pip.language import said
+from roslings_learn.lessons.document import DocumentPart
 
 
-class Day(Part):
+class Day(DocumentPart):
     """One day of the course."""
 
     id: str = Field(pattern=r"^[0-9]{2}-[a-z0-9-]+$", description="Its folder in days/")
@@ -29,10 +30,10 @@ class Day(Part):
     @property
     def name(self) -> str:
         """As a person says it: `Day 3: Topics`."""
-        return f"Day {self.number}: {self.title}"
+        return said("path.day", "Day {number}: {title}", number=self.number, title=self.title)
 
 
-class Path(Part):
+class Path(DocumentPart):
     """The file `days/path.yaml`."""
 
     days: tuple[Day, ...] = Field(min_length=1)

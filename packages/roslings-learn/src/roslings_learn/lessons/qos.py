@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Choice:
+class PolicyValue:
     """One value of a rule."""
 
     words: str
@@ -21,13 +21,13 @@ class Choice:
 
 
 @dataclass(frozen=True)
-class Rule:
+class PolicyRule:
     """One rule, with its choices from weak to strong."""
 
     name: str
     """As the argument of `QoSProfile` is called."""
     title: str
-    choices: tuple[Choice, ...]
+    choices: tuple[PolicyValue, ...]
     broken: str
     """What is wrong where the offer is weaker than what is asked."""
 
@@ -45,42 +45,42 @@ class Rule:
 
 
 RULES = (
-    Rule(
+    PolicyRule(
         "reliability",
         "reliability",
-        (Choice("best effort", "BEST_EFFORT"), Choice("reliable", "RELIABLE")),
+        (PolicyValue("best effort", "BEST_EFFORT"), PolicyValue("reliable", "RELIABLE")),
         "The subscription wants lost messages again, and the publisher sends none again.",
     ),
-    Rule(
+    PolicyRule(
         "durability",
         "durability",
-        (Choice("volatile", "VOLATILE"), Choice("transient local", "TRANSIENT_LOCAL")),
+        (PolicyValue("volatile", "VOLATILE"), PolicyValue("transient local", "TRANSIENT_LOCAL")),
         "The subscription asks for earlier messages, and the publisher keeps none.",
     ),
-    Rule(
+    PolicyRule(
         "deadline",
         "deadline",
-        (Choice("none", None), Choice("1 s", 1.0), Choice("0.2 s", 0.2)),
+        (PolicyValue("none", None), PolicyValue("1 s", 1.0), PolicyValue("0.2 s", 0.2)),
         "The subscription wants messages more often than the publisher promises.",
     ),
-    Rule(
+    PolicyRule(
         "liveliness",
         "liveliness",
-        (Choice("automatic", "AUTOMATIC"), Choice("manual by topic", "MANUAL_BY_TOPIC")),
+        (PolicyValue("automatic", "AUTOMATIC"), PolicyValue("manual by topic", "MANUAL_BY_TOPIC")),
         "The subscription wants signs of life from the publisher itself, and only its program"
         " gives them.",
     ),
-    Rule(
+    PolicyRule(
         "liveliness_lease_duration",
         "lease duration",
-        (Choice("none", None), Choice("2 s", 2.0), Choice("0.5 s", 0.5)),
+        (PolicyValue("none", None), PolicyValue("2 s", 2.0), PolicyValue("0.5 s", 0.5)),
         "The subscription wants signs of life more often than the publisher promises.",
     ),
 )
 """All that is compared. History, depth and lifespan are not: each side has its own."""
 
 
-def broken_rules(offered: Mapping[str, str], asked: Mapping[str, str]) -> list[Rule]:
+def broken_rules(offered: Mapping[str, str], asked: Mapping[str, str]) -> list[PolicyRule]:
     """The rules in which the offer is too weak; none: the two match.
 
     Both map a rule's name to the words of a choice. Raises KeyError and ValueError where one has

@@ -15,7 +15,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag, model_validator
 from typing_extensions import Self
 
-from roslings_learn.lessons.document import Part
+from roslings_learn.lessons.document import DocumentPart
 
 ID = r"^[a-z][a-z0-9-]*$"
 
@@ -28,7 +28,7 @@ def mixed(question: str, count: int) -> list[int]:
     return sorted(range(count), key=lambda place: sha256(f"{question}:{place}".encode()).digest())
 
 
-class Asked(Part):
+class QuizQuestion(DocumentPart):
     """What every question has."""
 
     id: str = Field(pattern=ID, description="Stable: a student's progress is kept under it")
@@ -46,7 +46,7 @@ class Asked(Part):
         return self.model_copy(update={"day": day})
 
 
-class Choice(Part):
+class QuizChoice(DocumentPart):
     """One answer that a student can choose."""
 
     text: str = Field(min_length=1)
@@ -54,13 +54,13 @@ class Choice(Part):
     right: bool = False
 
 
-class Chosen(Asked):
+class ChoiceQuestion(QuizQuestion):
     """A question with choices."""
 
-    choices: tuple[Choice, ...] = Field(min_length=2)
+    choices: tuple[QuizChoice, ...] = Field(min_length=2)
 
     @model_validator(mode="after")
-    def _choices_differ(self) -> Chosen:
+    def _choices_differ(self) -> ChoiceQuestion:
         text, times = Counter(choice.text for choice in self.choices).most_common(1)[0]
         if times > 1:
             raise ValueError(f"The choice '{text}' of '{self.id}' is there twice. | Change one.")
@@ -79,7 +79,7 @@ class Chosen(Asked):
         return self.model_copy(update={"day": day, "choices": _at(places, self.choices)})
 
 
-class One(Chosen):
+class One(ChoiceQuestion):
     """One choice is right: radio buttons."""
 
     kind: Literal["one"]
@@ -92,31 +92,31 @@ class One(Chosen):
         return self
 
 
-def _at(places: Sequence[int], choices: tuple[Choice, ...]) -> tuple[Choice, ...]:
+def _at(places: Sequence[int], choices: tuple[QuizChoice, ...]) -> tuple[QuizChoice, ...]:
     return tuple(choices[place] for place in places)
 
 
-class Several(Chosen):
+class Several(ChoiceQuestion):
     """One or more choices are right: check boxes."""
 
     kind: Literal["several"]
 
 
-class OrderedStep(Part):
+class OrderedStep(DocumentPart):
     """One step of a question about an order."""
 
     text: str = Field(min_length=1)
     why: str = Field(min_length=1, description="Why it stands at its place")
 
 
-class Order(Asked):
+class OrderQuestion(QuizQuestion):
     """Steps to bring into order; the file has them in the right one."""
 
     kind: Literal["order"]
     steps: tuple[OrderedStep, ...] = Field(min_length=3)
 
     @model_validator(mode="after")
-    def _steps_differ(self) -> Order:
+    def _steps_differ(self) -> OrderQuestion:
         text, times = Counter(step.text for step in self.steps).most_common(1)[0]
         if times > 1:
             raise ValueError(f"The step '{text}' of '{self.id}' is there twice. | Change one.")
@@ -133,21 +133,21 @@ class Order(Asked):
         return places[::-1] if places == sorted(places) else places
 
 
-class Mistake(Part):
+class CommonMistake(DocumentPart):
     """A wrong answer that many give, and what it shows."""
 
     text: str = Field(min_length=1)
     why: str = Field(min_length=1)
 
 
-class Prints(Asked):
+class Prints(QuizQuestion):
     """What does this code print? The student types it."""
 
     kind: Literal["prints"]
     code: str = Field(min_length=1)
     prints: str = Field(min_length=1)
     why: str = Field(min_length=1)
-    mistakes: tuple[Mistake, ...] = ()
+    mistakes: tuple[CommonMistake, ...] = ()
 
     @model_validator(mode="after")
     def _mistakes_are_wrong(self) -> Prints:
@@ -161,13 +161,13 @@ class Prints(Asked):
         return (self.ask, self.why, *(mistake.why for mistake in self.mistakes))
 
 
-class Again(Part):
+class Again(DocumentPart):
     """A question of an earlier day, asked once more."""
 
     again: str
 
 
-Question = One | Several | Order | Prints
+Question = One | Several | OrderQuestion | Prints
 
 
 def _kind(entry: Any) -> str | None:
@@ -179,7 +179,7 @@ def _kind(entry: Any) -> str | None:
 Entry = Annotated[
     Annotated[One, Tag("one")]
     | Annotated[Several, Tag("several")]
-    | Annotated[Order, Tag("order")]
+    | Annotated[OrderQuestion, Tag("order")]
     | Annotated[Prints, Tag("prints")]
     | Annotated[Again, Tag("again")],
     Discriminator(
@@ -191,7 +191,7 @@ Entry = Annotated[
 ]
 
 
-class QuizFile(Part):
+class QuizFile(DocumentPart):
     """The file `days/NN-name/quiz.yaml`."""
 
     questions: tuple[Entry, ...] = Field(min_length=1)

@@ -6,7 +6,8 @@ import textwrap
 from collections.abc import Iterator
 from string import ascii_lowercase
 
-from roslings_learn.lessons import One, Order, Prints, Question, Quiz, Several
+from ros2_on_pip.language import counted, said
+from roslings_learn.lessons import One, OrderQuestion, Prints, Question, Quiz, Several
 from roslings_learn.lessons.answering import explained
 from roslings_learn.lessons.glossary import LINK
 
@@ -15,10 +16,12 @@ WIDTH = 80
 
 def as_text(quiz: Quiz) -> str:
     """The whole quiz, in lines of at most 80 columns."""
-    lines = [f"Quiz of {quiz.day}: {len(quiz.questions)} questions.", ""]
+    one, other = "Quiz of {day}: {count} question.", "Quiz of {day}: {count} questions."
+    count = len(quiz.questions)
+    lines = [counted("quiz.head", count, one=one, other=other, day=quiz.day), ""]
     for number, question in enumerate(quiz.questions, 1):
-        lines += [*asked(number, question), ""]
-    lines += ["Answers", ""]
+        lines += [*question_lines(number, question), ""]
+    lines += [said("quiz.answers", "Answers"), ""]
     for number, question in enumerate(quiz.questions, 1):
         lines += [*_answered(number, question), ""]
     return "\n".join(lines).rstrip()
@@ -29,16 +32,16 @@ def without_links(text: str) -> str:
     return LINK.sub(r"\1", text)
 
 
-def asked(number: int, question: Question) -> Iterator[str]:
+def question_lines(number: int, question: Question) -> Iterator[str]:
     """A question, with a letter for each choice and for each step that is to be ordered."""
     yield from filled(f"{number}. {question.ask}", "   ")
     yield from _code(question)
     if isinstance(question, One | Several):
         if isinstance(question, Several):
-            yield "   (one or more are right)"
+            yield f"   {said('quiz.one_or_more', '(one or more are right)')}"
         for letter, choice in zip(ascii_lowercase, question.choices, strict=False):
             yield from filled(f"   {letter}) {choice.text}", "      ")
-    elif isinstance(question, Order):
+    elif isinstance(question, OrderQuestion):
         for letter, place in zip(ascii_lowercase, question.shown, strict=False):
             yield from filled(f"   {letter}) {question.steps[place].text}", "      ")
 
@@ -52,14 +55,17 @@ def _answered(number: int, question: Question) -> Iterator[str]:
     if isinstance(question, One | Several):
         yield f"{number}."
         for letter, choice in zip(ascii_lowercase, question.choices, strict=False):
-            word = "right" if choice.right else "wrong"
-            yield from filled(f"   {letter}) {word}: {choice.why}", "      ")
-    elif isinstance(question, Order):
-        yield f"{number}. In this order:"
+            right = said("quiz.choice_right", "right: {why}", why=choice.why)
+            wrong = said("quiz.choice_wrong", "wrong: {why}", why=choice.why)
+            yield from filled(f"   {letter}) {right if choice.right else wrong}", "      ")
+    elif isinstance(question, OrderQuestion):
+        yield f"{number}. {said('quiz.in_this_order', 'In this order:')}"
         for place, step in enumerate(question.steps, 1):
             yield from filled(f"   {place}) {explained(step)}", "      ")
     elif isinstance(question, Prints):
-        yield from filled(f"{number}. It prints {question.prints}: {question.why}", "   ")
+        text, why = question.prints, question.why
+        told = said("quiz.prints_because", "It prints {text}: {why}", text=text, why=why)
+        yield from filled(f"{number}. {told}", "   ")
 
 
 def filled(text: str, indent: str) -> list[str]:

@@ -1,7 +1,7 @@
 """The context that nodes take when they name none: as long as a session is open, the session's.
 
 A node of a beginner says `super().__init__("talker")`, and rclpy then asks for the process's one
-default context. rclpy has no public way to set it: its variable is the only one.
+default context. `rclpy` has no public way to set it: its variable is the only one.
 """
 
 from __future__ import annotations

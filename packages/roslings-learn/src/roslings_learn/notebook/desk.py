@@ -8,10 +8,10 @@ import sys
 from collections.abc import Iterable
 from contextlib import ExitStack
 
-from roslings_learn.notebook.errors import Trouble
+from roslings_learn.notebook.errors import NotebookTrouble
 from roslings_learn.notebook.picture import in_a_notebook
 from roslings_learn.notebook.place import on_the_site, settle_in
-from roslings_learn.notebook.programs import Program
+from roslings_learn.notebook.programs import NotebookProgram
 from roslings_learn.of_window import OF_SERVER
 from roslings_learn.start import START
 
@@ -23,7 +23,7 @@ _running = ExitStack()
 """The desk that this kernel has started: it ends when another one is, or with the kernel."""
 
 
-class NoSuchTab(Trouble):
+class NoSuchTab(NotebookTrouble):
     """The desk has no tab of this name."""
 
     def __init__(self, name: str, there: Iterable[str]) -> None:
@@ -58,7 +58,7 @@ def _show(address: str, title: str) -> None:
 
 def _open_in_browser(tab: str) -> None:
     _running.close()
-    program = _running.enter_context(Program(f"'{sys.executable}' '{START}' desk {tab}"))
+    program = _running.enter_context(NotebookProgram(f"'{sys.executable}' '{START}' desk {tab}"))
     program.says(OPEN, timeout_s=OPENS_WITHIN_S)
     program.says("Ctrl-C")
     print(*program.lines[:2], sep="\n")

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Sequence
 from importlib.util import find_spec
 
 
-class Trouble(Exception):
+class NotebookTrouble(Exception):
     """A cell cannot go on. Its text is all that the student needs to see."""
 
 
-class NoRos(Trouble):
+class NoRos(NotebookTrouble):
     """This kernel's Python has no rclpy."""
 
     def __init__(self) -> None:
@@ -26,14 +26,14 @@ def require_ros() -> None:
         raise NoRos
 
 
-class NoSession(Trouble):
+class NoSession(NotebookTrouble):
     """Something that needs a session was asked for outside of one."""
 
     def __init__(self, what: str) -> None:
         super().__init__(f"{what} needs a session. Put it inside: with session() as ros:")
 
 
-class SessionEnded(Trouble):
+class SessionEnded(NotebookTrouble):
     """The session is over, or ROS was shut down in it."""
 
     def __init__(self) -> None:
@@ -42,7 +42,7 @@ class SessionEnded(Trouble):
         )
 
 
-class StillWaiting(Trouble):
+class StillWaiting(NotebookTrouble):
     """A condition did not come true in time."""
 
     def __init__(self, what: str, seconds: float, hint: str = "") -> None:
@@ -50,7 +50,7 @@ class StillWaiting(Trouble):
         super().__init__(f"Waited {seconds:g} s for {what}. It did not come.{after}")
 
 
-class NothingHeard(Trouble):
+class NothingHeard(NotebookTrouble):
     """Fewer messages came than were asked for."""
 
     def __init__(self, topic: str, came: int, wanted: int, seconds: float, hint: str) -> None:
@@ -58,7 +58,7 @@ class NothingHeard(Trouble):
         super().__init__(f"{came} of {wanted} messages on {topic} in {seconds:g} s. {hint}")
 
 
-class OtherType(Trouble):
+class OtherType(NotebookTrouble):
     """A topic is used with two types."""
 
     def __init__(self, topic: str, wanted: str, there: Iterable[str]) -> None:
@@ -68,7 +68,7 @@ class OtherType(Trouble):
         )
 
 
-class NobodyListens(Trouble):
+class NobodyListens(NotebookTrouble):
     """A message has no subscription to go to."""
 
     def __init__(self, topic: str, type_name: str, seconds: float, hint: str) -> None:
@@ -77,7 +77,7 @@ class NobodyListens(Trouble):
         )
 
 
-class NoInit(Trouble):
+class NoInit(NotebookTrouble):
     """A node's class did not reach rclpy's Node in the usual way."""
 
     def __init__(self, kind: str) -> None:
@@ -86,7 +86,7 @@ class NoInit(Trouble):
         )
 
 
-class NotANode(Trouble):
+class NotANode(NotebookTrouble):
     """Something else than a class of nodes was given."""
 
     def __init__(self, given: object) -> None:
@@ -97,7 +97,7 @@ class NotANode(Trouble):
         )
 
 
-class ProgramEnded(Trouble):
+class ProgramEnded(NotebookTrouble):
     """A program ended before it said what was awaited."""
 
     def __init__(self, command: str, code: int, text: str, lines: Sequence[str]) -> None:
@@ -108,7 +108,7 @@ class ProgramEnded(Trouble):
         )
 
 
-class NeverSaid(Trouble):
+class NeverSaid(NotebookTrouble):
     """A program goes on, and does not say what is awaited."""
 
     def __init__(self, command: str, text: str, seconds: float, lines: Sequence[str]) -> None:

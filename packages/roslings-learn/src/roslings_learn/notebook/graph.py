@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from roslings_learn.notebook.picture import Picture, show, svg_picture
+from roslings_learn.notebook.picture import NotebookPicture, show, svg_picture
 from roslings_learn.notebook.place import settle_in
 
 
@@ -14,14 +14,14 @@ def show_graph() -> None:
     show(graph_picture())
 
 
-def graph_picture() -> Picture:
+def graph_picture() -> NotebookPicture:
     """The picture that `show_graph` shows."""
     settle_in()
-    from ros2_on_pip.discovery import Eye
+    from ros2_on_pip.discovery import DirectNode
     from ros2_on_pip.graph.drawing import graph_svg
     from ros2_on_pip.graph.seen import graph_seen_by
     from ros2_on_pip.graph.words import describe_graph
 
-    with Eye() as eye:
-        seen = graph_seen_by(eye.settle())
+    with DirectNode() as direct_node:
+        seen = graph_seen_by(direct_node.settle())
     return svg_picture(graph_svg(seen), describe_graph(seen))

@@ -17,7 +17,7 @@ NS_PER_S = 1e9
 
 
 @dataclass(frozen=True)
-class Heard:
+class HeardMessage:
     """One message, and when it was sent."""
 
     message: Any
@@ -36,18 +36,18 @@ class ListenRequest:
     timeout_s: float
 
 
-class Ear:
+class TopicListener:
     """A hidden node of its own that hears one topic. Its callbacks run in the caller's thread."""
 
     def __init__(self, node: Any, executor: Any, check: Callable[[], None]) -> None:
         self._node, self._executor, self._check = node, executor, check
 
-    def hear(self, request: ListenRequest) -> Iterator[Heard]:
+    def hear(self, request: ListenRequest) -> Iterator[HeardMessage]:
         """As many messages as asked, as they come. Raises NothingHeard, or what a callback does."""
         from ros2_on_pip.names import checked_topic
 
         topic = checked_topic(request.topic)
-        came: list[Heard] = []
+        came: list[HeardMessage] = []
         told = 0
         end_s = time.monotonic() + request.timeout_s
         listening = None
@@ -68,9 +68,9 @@ class Ear:
         types = dict(self._node.get_topic_names_and_types()).get(topic)
         return class_of(types[0], "msg") if types else None
 
-    def _listen(self, topic: str, kind: Any, came: list[Heard]) -> Any:
+    def _listen(self, topic: str, kind: Any, came: list[HeardMessage]) -> Any:
         def hear(message: Any, info: Any) -> None:
-            came.append(Heard(message, info["source_timestamp"] / NS_PER_S))
+            came.append(HeardMessage(message, info["source_timestamp"] / NS_PER_S))
 
         offered = self._node.get_publishers_info_by_topic(topic)
         with one_type(self._node, topic, kind):
@@ -138,15 +138,15 @@ def one_type(node: Any, topic: str, kind: Any) -> Iterator[None]:
 
 
 @contextmanager
-def ear(context: Any, check: Callable[[], None]) -> Iterator[Ear]:
-    """An ear in `context`, until the block ends."""
+def topic_listener(context: Any, check: Callable[[], None]) -> Iterator[TopicListener]:
+    """A listener in `context`, until the block ends."""
     from rclpy.executors import SingleThreadedExecutor
 
     node = quiet_node("_notebook_ear", context)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     try:
-        yield Ear(node, executor, check)
+        yield TopicListener(node, executor, check)
     finally:
         executor.shutdown()
         node.destroy_node()
@@ -155,8 +155,8 @@ def ear(context: Any, check: Callable[[], None]) -> Iterator[Ear]:
 def quiet_node(name: str, context: Any) -> Any:
     """A node that the graph's tools hide, and that offers nothing itself.
 
-    Not its type descriptions either: rclpy 7.1 does not take that service down with the node, and
-    who looks at the graph then waits for a node that has ended.
+    It does not offer its type descriptions either. The reason is that rclpy 7.1 does not take that
+    service down with the node. Who looks at the graph then waits for a node that has ended.
     """
     from rclpy.node import Node
     from rclpy.parameter import Parameter

@@ -6,8 +6,8 @@ import io
 from collections.abc import Iterator
 from typing import Any
 
-from roslings_learn.notebook.errors import Trouble
-from roslings_learn.notebook.picture import Picture, show
+from roslings_learn.notebook.errors import NotebookTrouble
+from roslings_learn.notebook.picture import NotebookPicture, show
 
 CHANNELS = {"rgb8": "RGB", "bgr8": "BGR", "rgba8": "RGBA", "bgra8": "BGRA", "mono8": "L"}
 """Encoding to the order of its bytes."""
@@ -16,7 +16,7 @@ SHOWN_PX = 480
 """A smaller picture is shown larger, pixel by pixel."""
 
 
-class BadImage(Trouble):
+class BadImage(NotebookTrouble):
     """The message does not hold the picture that it promises."""
 
 
@@ -25,7 +25,7 @@ def show_image(image: Any) -> None:
     show(image_picture(image))
 
 
-def image_picture(image: Any) -> Picture:
+def image_picture(image: Any) -> NotebookPicture:
     """The picture that `show_image` shows. Raises BadImage."""
     _check(image)
     order = CHANNELS[image.encoding]
@@ -35,7 +35,9 @@ def image_picture(image: Any) -> Picture:
         f" The pixel in the middle has the colour {middle}."
     )
     width = max(image.width, SHOWN_PX)
-    return Picture(_png(image, order), "image/png", alt, width, pixelated=image.width < width)
+    return NotebookPicture(
+        _png(image, order), "image/png", alt, width, pixelated=image.width < width
+    )
 
 
 def _check(image: Any) -> None:

@@ -40,7 +40,7 @@ text {
 
 
 @dataclass(frozen=True)
-class Picture:
+class NotebookPicture:
     """A drawing and the sentences that say the same."""
 
     content: bytes
@@ -70,14 +70,14 @@ class Picture:
         return f"data:{self.kind};base64,{base64.b64encode(content).decode('ascii')}"
 
 
-def svg_picture(svg: str, alt: str) -> Picture:
+def svg_picture(svg: str, alt: str) -> NotebookPicture:
     """A picture of an `svg` element that was written for a page with a style sheet."""
     inside = re.sub(r"^<svg ", '<svg xmlns="http://www.w3.org/2000/svg" ', svg, count=1)
     styled = inside.replace(">", f"><style>{INK}</style>", 1)
-    return Picture(styled.encode("utf-8"), "image/svg+xml", alt)
+    return NotebookPicture(styled.encode("utf-8"), "image/svg+xml", alt)
 
 
-def show(picture: Picture) -> None:
+def show(picture: NotebookPicture) -> None:
     """Show it below the cell; without a notebook, print its text alternative."""
     if not in_a_notebook():
         print(picture.alt)

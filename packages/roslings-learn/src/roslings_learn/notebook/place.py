@@ -1,8 +1,8 @@
 """Where a kernel stands: its ROS domain, which no other notebook of this computer uses.
 
-Two notebooks that are open at once would hear each other's nodes. So each kernel leases its
-domain as an arena does: by a bound TCP port on loopback, which the kernel of the operating system
-takes back when the process ends, however it ends.
+Two notebooks that are open at once would hear each other's nodes. So each kernel leases its domain
+as an arena does, by a bound TCP port on loopback. The kernel of the operating system takes it back
+when the process ends, however it ends.
 """
 
 from __future__ import annotations

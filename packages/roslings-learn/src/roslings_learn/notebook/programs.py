@@ -22,7 +22,7 @@ END_WITHIN_S = 5.0
 LOOK_EVERY_S = 0.02
 
 
-class Program:
+class NotebookProgram:
     """A program that runs beside the cell. A context manager: leaving the block ends it."""
 
     def __init__(self, command: str) -> None:
@@ -33,7 +33,7 @@ class Program:
         self._reader = threading.Thread(target=self._read, name="roslings program", daemon=True)
         self._reader.start()
 
-    def __enter__(self) -> Program:
+    def __enter__(self) -> NotebookProgram:
         return self
 
     def __exit__(

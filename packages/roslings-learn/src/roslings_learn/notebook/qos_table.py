@@ -1,7 +1,7 @@
 """What matches what, as a table to play with: each choice is tried by a real pair.
 
 A publisher and a subscription with the chosen quality of service are made in this notebook's
-domain, and what ROS tells the subscription stands below the table.
+domain. What ROS tells the subscription stands below the table.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from html import escape
 from importlib.util import find_spec
 from typing import Any
 
-from roslings_learn.lessons.qos import RULES, Rule, broken_rules
+from roslings_learn.lessons.qos import RULES, PolicyRule, broken_rules
 from roslings_learn.notebook.picture import in_a_notebook
 from roslings_learn.notebook.place import on_the_site
 
@@ -109,7 +109,7 @@ def profile(choices: Mapping[str, str]) -> Any:
     return QoSProfile(depth=1, **{name: value for name, value in values.items() if value})
 
 
-def _value(rule: Rule, words: str) -> Any:
+def _value(rule: PolicyRule, words: str) -> Any:
     from rclpy import qos
     from rclpy.duration import Duration
 
@@ -126,14 +126,14 @@ class _Shown:
     """What the notebook shows; where widgets cannot be drawn, the plain text."""
 
     def __init__(self) -> None:
-        self._table = Table()
+        self._table = QosTable()
 
     def _repr_mimebundle_(self, **words: Any) -> Any:
         bundle = self._table.box._repr_mimebundle_(**words)
         return {**bundle, "text/plain": as_text()} if isinstance(bundle, dict) else bundle
 
 
-class Table:
+class QosTable:
     """Two lists a rule, and a line that says what ROS made of them."""
 
     def __init__(self) -> None:
@@ -148,7 +148,7 @@ class Table:
             each.observe(lambda change: self.look(), names="value")
         self.look()
 
-    def _row(self, rule: Rule) -> Any:
+    def _row(self, rule: PolicyRule) -> Any:
         from ipywidgets import HBox
 
         return HBox(
@@ -162,7 +162,7 @@ class Table:
         self.says.value = _as_html(meet(offered, asked), broken_rules(offered, asked))
 
 
-def _choose(rule: Rule, does: str) -> Any:
+def _choose(rule: PolicyRule, does: str) -> Any:
     from ipywidgets import Dropdown
 
     return Dropdown(
@@ -173,7 +173,7 @@ def _choose(rule: Rule, does: str) -> Any:
     )
 
 
-def _as_html(meeting: Meeting, broken: list[Rule]) -> str:
+def _as_html(meeting: Meeting, broken: list[PolicyRule]) -> str:
     if meeting.matched:
         return '<p role="status">ROS says: <b>matched</b>. Messages come.</p>'
     said = f"ROS says: <b>incompatible QoS</b>, {escape(meeting.failed)}. No message comes."

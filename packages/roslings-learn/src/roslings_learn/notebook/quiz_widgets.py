@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from roslings_learn.lessons import One, Order, Prints, Question, Quiz, Several
+from roslings_learn.lessons import One, OrderQuestion, Prints, Question, Quiz, Several
 from roslings_learn.lessons.answering import explained
 from roslings_learn.lessons.quiz_text import as_text, without_links
 
@@ -78,7 +78,7 @@ def _fields(question: Question) -> tuple[list[Any], Answer]:
         return _one(question)
     if isinstance(question, Several):
         return _several(question)
-    if isinstance(question, Order):
+    if isinstance(question, OrderQuestion):
         return _order(question)
     return _prints(question)
 
@@ -116,7 +116,7 @@ def _several(question: Several) -> tuple[list[Any], Answer]:
     return list(boxes), answer
 
 
-def _order(question: Order) -> tuple[list[Any], Answer]:
+def _order(question: OrderQuestion) -> tuple[list[Any], Answer]:
     from ipywidgets import Dropdown, Layout
 
     steps = [CHOOSE, *(_plain(question.steps[place].text) for place in question.shown)]

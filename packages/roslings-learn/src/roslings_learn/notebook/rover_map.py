@@ -7,12 +7,12 @@ from collections.abc import Collection, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from roslings_learn.notebook.errors import Trouble
-from roslings_learn.notebook.picture import Picture, show
+from roslings_learn.notebook.errors import NotebookTrouble
+from roslings_learn.notebook.picture import NotebookPicture, show
 from roslings_rover.models.differential_drive import Body, Pose
 from roslings_rover.models.world import default_world
 from roslings_rover.rover.moving_map import moving_map
-from roslings_rover.rover.rover import Moment
+from roslings_rover.rover.rover import RoverMoment
 
 if TYPE_CHECKING:
     from roslings_my_rover.notebook import LiveMyRover
@@ -24,7 +24,7 @@ PARTS_START_WITHIN_S = 60.0
 """All of them, on a busy computer."""
 
 
-class NoWay(Trouble):
+class NoWay(NotebookTrouble):
     """A drive needs places."""
 
     def __init__(self) -> None:
@@ -39,7 +39,7 @@ def show_map(rover: LiveRover | LiveMyRover) -> None:
     Takes what `ros.rover()` and `ros.my_rover()` gave. Of the latter, its parts are told, too.
     """
     still = rover.map(moves=False).encode()
-    show(Picture(rover.map().encode(), "image/svg+xml", _map_in_words(rover), still=still))
+    show(NotebookPicture(rover.map().encode(), "image/svg+xml", _map_in_words(rover), still=still))
     if lines := _about_parts(rover):
         print("\n".join(lines))
 
@@ -106,21 +106,23 @@ def show_path(odometry: Sequence[Any]) -> None:
     show(path_picture(odometry))
 
 
-def path_picture(odometry: Sequence[Any]) -> Picture:
+def path_picture(odometry: Sequence[Any]) -> NotebookPicture:
     """The picture that `show_path` shows. Raises NoWay."""
     trail = _trail([getattr(each, "message", each) for each in odometry])
     if not trail:
         raise NoWay
     moving, still = (_drawn(trail, moves).encode() for moves in (True, False))
-    return Picture(moving, "image/svg+xml", _in_words(trail), still=still)
+    return NotebookPicture(moving, "image/svg+xml", _in_words(trail), still=still)
 
 
-def _trail(messages: Sequence[Any]) -> list[Moment]:
+def _trail(messages: Sequence[Any]) -> list[RoverMoment]:
     """As their stamps tell; each 0.1 s after the one before where these do not grow."""
     times_s = [each.header.stamp.sec + each.header.stamp.nanosec * 1e-9 for each in messages]
     if any(later <= earlier for earlier, later in pairwise(times_s)):
         times_s = [0.1 * number for number in range(len(messages))]
-    return [Moment(time_s, _pose(each)) for time_s, each in zip(times_s, messages, strict=True)]
+    return [
+        RoverMoment(time_s, _pose(each)) for time_s, each in zip(times_s, messages, strict=True)
+    ]
 
 
 def _pose(odometry: Any) -> Pose:
@@ -128,7 +130,7 @@ def _pose(odometry: Any) -> Pose:
     return Pose(place.x, place.y, 2 * math.atan2(turned.z, turned.w))
 
 
-def _in_words(trail: Sequence[Moment]) -> str:
+def _in_words(trail: Sequence[RoverMoment]) -> str:
     places = [(each.pose.x_m, each.pose.y_m) for each in trail]
     (x0, y0), (x1, y1) = places[0], places[-1]
     way_m = sum(math.dist(a, b) for a, b in pairwise(places))
@@ -138,5 +140,5 @@ def _in_words(trail: Sequence[Moment]) -> str:
     )
 
 
-def _drawn(trail: Sequence[Moment], moves: bool) -> str:
+def _drawn(trail: Sequence[RoverMoment], moves: bool) -> str:
     return moving_map(default_world(), trail, Body().radius_m, dots=True, moves=moves)

@@ -21,8 +21,8 @@ from roslings_learn.notebook.errors import NobodyListens, NoSession, StillWaitin
 from roslings_learn.notebook.place import settle_in
 
 if TYPE_CHECKING:
-    from roslings_learn.notebook.hearing import Heard
-    from roslings_learn.notebook.programs import Program
+    from roslings_learn.notebook.hearing import HeardMessage
+    from roslings_learn.notebook.programs import NotebookProgram
     from roslings_my_rover.notebook import LiveMyRover
     from roslings_rover.rover.notebook import LiveRover
 
@@ -91,7 +91,7 @@ class Session:
         things.enter_context(as_default(self.context))
         self._spinning = SpinThreads(self.context)
         things.callback(self._end_nodes)
-        self._voice = quiet_node("_notebook", self.context)
+        self._own_node = quiet_node("_notebook", self.context)
         self._publishers: dict[tuple[str, Any], Any] = {}
         _open.append(self)
         things.callback(_open.remove, self)
@@ -137,9 +137,9 @@ class Session:
     ) -> Any:
         """Make a node of the class `kind` as its main() would, and spin it; returns the node.
 
-        `ros_args` are words of the command line, e.g. `["-r", "__node:=left"]`. With `threads`,
-        the node has an executor of its own with so many threads: one that is busy for long lets
-        the session's other nodes go on.
+        `ros_args` are words of the command line, e.g. `["-r", "__node:=left"]`. With `threads`, the
+        node has an executor of its own with so many threads. One that is busy for long lets the
+        session's other nodes go on.
         Raises NotANode, NoInit, SessionEnded, and what the node's `__init__` raises.
         """
         from roslings_learn.notebook.default_context import as_default
@@ -163,11 +163,11 @@ class Session:
 
     def names(self) -> list[str]:
         """Full names of all nodes that run in this ROS domain, e.g. `["/talker"]`."""
-        from ros2_on_pip.discovery import Eye
+        from ros2_on_pip.discovery import DirectNode
 
         self._spinning.check()
-        with Eye() as eye:
-            return eye.settle().nodes()
+        with DirectNode() as direct_node:
+            return direct_node.settle().nodes()
 
     def rover(self, seed: int = 0, room: int | None = None) -> LiveRover:
         """The course's simulated rover (/cmd_vel, /odom, /scan); it ends with the session.
@@ -217,12 +217,12 @@ class Session:
 
     def hear(
         self, topic: str, kind: Any = None, *, count: int = 5, timeout_s: float = USUALLY_S
-    ) -> Iterator[Heard]:
+    ) -> Iterator[HeardMessage]:
         """As `collect`, one message at a time, as they come."""
-        from roslings_learn.notebook.hearing import ListenRequest, ear
+        from roslings_learn.notebook.hearing import ListenRequest, topic_listener
 
         self._spinning.check()
-        with ear(self.context, self._spinning.check) as listener:
+        with topic_listener(self.context, self._spinning.check) as listener:
             yield from listener.hear(ListenRequest(topic, kind, count, timeout_s))
 
     def say(
@@ -239,7 +239,7 @@ class Session:
         Raises NobodyListens, OtherType, and what a callback raised.
         """
         publisher = self._publisher(topic, type(message))
-        self._await_ears(topic, publisher, type(message), timeout_s)
+        self._await_subscriptions(topic, publisher, type(message), timeout_s)
         for number in range(count):
             if number:
                 time.sleep(every_s)
@@ -253,17 +253,17 @@ class Session:
 
         key = (checked_topic(topic), kind)
         if key not in self._publishers:
-            with one_type(self._voice, *key):
-                self._publishers[key] = self._voice.create_publisher(kind, topic, 10)
+            with one_type(self._own_node, *key):
+                self._publishers[key] = self._own_node.create_publisher(kind, topic, 10)
         return self._publishers[key]
 
-    def _await_ears(self, topic: str, publisher: Any, kind: Any, timeout_s: float) -> None:
+    def _await_subscriptions(self, topic: str, publisher: Any, kind: Any, timeout_s: float) -> None:
         from ros2_on_pip.interfaces import name_of
 
         try:
             self.until(publisher.get_subscription_count, "a subscription", timeout_s=timeout_s)
         except StillWaiting:
-            infos = self._voice.get_subscriptions_info_by_topic(topic)
+            infos = self._own_node.get_subscriptions_info_by_topic(topic)
             hint = f"Subscriptions to {topic}: {listed(info.topic_type for info in infos)}."
             raise NobodyListens(topic, name_of(kind), timeout_s, hint) from None
 
@@ -304,9 +304,9 @@ class Session:
 
     # --- programs --------------------------------------------------------------------------
 
-    def run(self, command: str) -> Program:
+    def run(self, command: str) -> NotebookProgram:
         """Start `command` as a terminal would; it ends with the session at the latest."""
-        from roslings_learn.notebook.programs import Program
+        from roslings_learn.notebook.programs import NotebookProgram
 
         self._spinning.check()
-        return self._things.enter_context(Program(command))
+        return self._things.enter_context(NotebookProgram(command))

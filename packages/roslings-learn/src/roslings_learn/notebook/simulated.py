@@ -1,8 +1,8 @@
 """Timers by a simulated clock: what a plot shows then is the node's, and no busy computer's.
 
 The site is built on computers that do other things, too. There, a cell that plots a topic of its
-own nodes hears them in simulated time: the clock goes from one timer's deadline to the next, as
-soon as each node has handled the step. A callback that sleeps takes no simulated time, so what is
+own nodes hears them in simulated time. The clock goes from one timer's deadline to the next, as
+soon as each node has handled the step. A callback that sleeps takes no simulated time. So what is
 heard is believed only where the nodes are at least twice as fast as real time.
 """
 
@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from roslings_learn.notebook.hearing import Heard
+from roslings_learn.notebook.hearing import HeardMessage
 from roslings_learn.notebook.release import nodes_of
 from roslings_learn.notebook.session import Session
 
@@ -64,7 +64,7 @@ class Clock:
         """To the next deadline of all timers."""
         return int(min(timer.time_until_next_call() for n in self.nodes for timer in n.timers))
 
-    def sim_s(self, heard: Heard) -> float:
+    def sim_s(self, heard: HeardMessage) -> float:
         """When a message was sent: at the last tick before it, in simulated seconds."""
         passed = bisect_right(self.wall_ns, round(heard.sent_s * NS_PER_S))
         return self.sim_ns[max(0, passed - 1)] / NS_PER_S
@@ -97,8 +97,8 @@ def _stepping(ros: Session, nodes: Sequence[Any]) -> Iterator[Clock]:
 
     from roslings_learn.notebook.hearing import quiet_node
 
-    voice = quiet_node("_notebook_clock", ros.context)
-    said = voice.create_publisher(ClockMessage, "/clock", 10)
+    clock_node = quiet_node("_notebook_clock", ros.context)
+    said = clock_node.create_publisher(ClockMessage, "/clock", 10)
     clock = Clock(nodes, lambda ns: said.publish(ClockMessage(clock=Time(nanoseconds=ns).to_msg())))
     stop = threading.Event()
     thread = threading.Thread(target=clock.run, args=[stop], name="roslings clock", daemon=True)
@@ -112,7 +112,7 @@ def _stepping(ros: Session, nodes: Sequence[Any]) -> Iterator[Clock]:
         if thread.is_alive():
             thread.join()
         _use_simulated_time(nodes, False)
-        voice.destroy_node()
+        clock_node.destroy_node()
 
 
 def _use_simulated_time(nodes: Sequence[Any], simulated: bool) -> None:

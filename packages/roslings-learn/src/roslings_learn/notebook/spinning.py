@@ -62,8 +62,14 @@ class Spinning:
         self._end.set_result(None)  # wakes the executor at once
         ended = _ended(self._thread) and all([_ended(worker) for worker in self._workers()])
         if ended:
+            self._drop_what_waits()
             self._executor.shutdown()
         return ended
+
+    def _drop_what_waits(self) -> None:
+        """End the callbacks that no thread came to; Python warns of each that is only forgotten."""
+        for task, *_ in getattr(self._executor, "_tasks", ()):
+            task.cancel()
 
     def _workers(self) -> list[threading.Thread]:
         """The threads of a MultiThreadedExecutor; rclpy has no public way to end them."""

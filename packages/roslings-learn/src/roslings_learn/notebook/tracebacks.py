@@ -11,7 +11,7 @@ import traceback
 from types import TracebackType
 from typing import Any
 
-from roslings_learn.notebook.errors import NoRos, Trouble
+from roslings_learn.notebook.errors import NoRos, NotebookTrouble
 
 RED, BOLD, PLAIN = "\x1b[31m", "\x1b[1m", "\x1b[0m"
 NOT_YET = "Not yet"
@@ -50,7 +50,7 @@ def told(shell: Any, error: BaseException) -> list[str]:
         return [f"{RED}{BOLD}{NOT_YET}:{PLAIN} {_asserted(error, frames)}"]
     if isinstance(error, ModuleNotFoundError) and error.name in ROS_PACKAGES:
         error = NoRos()
-    if isinstance(error, Trouble) or _is_problem(error):
+    if isinstance(error, NotebookTrouble) or _is_problem(error):
         return [*map(_where, frames[-1:]), f"{RED}{BOLD}{type(error).__name__}:{PLAIN} {error}"]
     return [*map(_where, frames or _last(error)), _named(error)]
 
@@ -66,9 +66,9 @@ def _named(error: BaseException) -> str:
 
 def _is_problem(error: BaseException) -> bool:
     from ros2_on_pip.errors import RoslingsError
-    from ros2_on_pip.problem import Problem
+    from ros2_on_pip.problem import CommandProblem
 
-    return isinstance(error, (Problem, RoslingsError))
+    return isinstance(error, (CommandProblem, RoslingsError))
 
 
 def _is_cell(shell: Any, frame: traceback.FrameSummary) -> bool:

@@ -26,9 +26,9 @@ def watch_topic(
 
 
 def _told(number: int, after_s: float, message: Any) -> str:
-    from ros2_on_pip.yaml_out import Shape, as_yaml
+    from ros2_on_pip.yaml_out import YamlOptions, as_yaml
 
-    lines = as_yaml(message, Shape()).rstrip().splitlines()
+    lines = as_yaml(message, YamlOptions()).rstrip().splitlines()
     head = f"{number:3}  {after_s:7.3f} s  "
     if len(lines) == 1:
         return head + lines[0]

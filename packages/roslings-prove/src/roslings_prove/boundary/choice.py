@@ -10,23 +10,23 @@ from collections import Counter
 from collections.abc import Iterable
 
 from roslings.course import Lab
-from roslings_prove.boundary.faults import Fault, faults
+from roslings_prove.boundary.faults import BoundaryFault, faults
 
 SEED = 20261128
 WANTED = 60
 """So many of a lab; all, where there are fewer."""
 
 
-def tried(lab: Lab) -> list[Fault]:
+def tried(lab: Lab) -> list[BoundaryFault]:
     """The faults of a lab that are graded. Raises UnknownInterface."""
     return chosen(faults(lab), WANTED)
 
 
-def chosen(found: Iterable[Fault], wanted: int) -> list[Fault]:
+def chosen(found: Iterable[BoundaryFault], wanted: int) -> list[BoundaryFault]:
     """So many: each time one of the place and the operator that were met least so far."""
     left = sorted(found, key=_drawn)
     met: Counter[object] = Counter()
-    result: list[Fault] = []
+    result: list[BoundaryFault] = []
     while left and len(result) < wanted:
         aimed = sum(fault.is_aimed for fault in result)
         wants_aimed = 2 * aimed <= len(result)
@@ -37,11 +37,11 @@ def chosen(found: Iterable[Fault], wanted: int) -> list[Fault]:
     return result
 
 
-def _turn(fault: Fault, met: Counter[object], wants_aimed: bool) -> tuple[int, bool, int]:
+def _turn(fault: BoundaryFault, met: Counter[object], wants_aimed: bool) -> tuple[int, bool, int]:
     """What is new comes first: a place, an operator; then the kind that is wanted."""
     counts = met[fault.place], met[fault.operator]
     return -counts.count(0), fault.is_aimed != wants_aimed, sum(counts)
 
 
-def _drawn(fault: Fault) -> str:
+def _drawn(fault: BoundaryFault) -> str:
     return hashlib.sha256(f"{SEED} {fault.name}".encode()).hexdigest()

@@ -9,9 +9,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from roslings.capabilities.actions.contract import ActionWords
+from roslings.capabilities.parameters.contract import ParameterWords
+from roslings.capabilities.services.contract import ServiceWords
 from roslings.course import Lab, NodeContract
 from roslings_prove.boundary import layer
-from roslings_prove.boundary.fields import Field, fields_of
+from roslings_prove.boundary.fields import MessageField, fields_of
 from roslings_prove.boundary.operators import AIMED, WORDS, of_field, of_flow
 from roslings_prove.generated.explained import BOUNDARY
 
@@ -20,7 +23,7 @@ ODOMETRY = "nav_msgs/msg/Odometry"
 
 
 @dataclass(frozen=True)
-class Fault:
+class BoundaryFault:
     """One thing that goes wrong between a program and ROS."""
 
     lab: Lab
@@ -78,54 +81,54 @@ class Fault:
         init.write_text(f"{own}\nfrom .{LAYER} import install\n\ninstall({words!r})\n", "utf-8")
 
 
-def neutral(lab: Lab) -> Fault:
+def neutral(lab: Lab) -> BoundaryFault:
     """The layer in each place, with nothing that goes wrong."""
-    return Fault(lab, "", "everywhere", "neutral")
+    return BoundaryFault(lab, "", "everywhere", "neutral")
 
 
-def faults(lab: Lab) -> list[Fault]:
+def faults(lab: Lab) -> list[BoundaryFault]:
     """All of a lab. Raises UnknownInterface where a type of its card is nowhere defined."""
     found = [fault for node in lab.card.nodes for fault in _of_node(lab, node)]
     return [*found, *_of_bags(lab)]
 
 
-def _of_node(lab: Lab, node: NodeContract) -> Iterator[Fault]:
+def _of_node(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:
     program = node.executable
     for kind, topics in (("sent", node.publishes), ("heard", node.subscribes)):
         for topic in topics:
             yield from _of_values(lab, program, kind, topic.topic, fields_of(lab, topic.type))
             if "qos" in topic.model_fields_set:
                 for operator in sorted({"reliability", "durability"} & topic.qos.model_fields_set):
-                    yield Fault(lab, program, f"{kind} qos", operator, topic.topic)
+                    yield BoundaryFault(lab, program, f"{kind} qos", operator, topic.topic)
     yield from _of_services(lab, node)
     yield from _of_actions(lab, node)
     yield from _of_parameters(lab, node)
     yield from _of_life(lab, node)
 
 
-def _of_services(lab: Lab, node: NodeContract) -> Iterator[Fault]:
-    for service in getattr(node, "serves", ()):
+def _of_services(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:
+    for service in node.of(ServiceWords).serves:
         for part, kind in enumerate(("request", "response")):
             found = fields_of(lab, service.type, part)
             yield from _of_values(lab, node.executable, kind, service.service, found)
-    for service in getattr(node, "calls", ()):
+    for service in node.of(ServiceWords).calls:
         found = fields_of(lab, service.type)
         yield from _of_values(lab, node.executable, "asked", service.service, found)
 
 
-def _of_actions(lab: Lab, node: NodeContract) -> Iterator[Fault]:
-    for action in getattr(node, "performs", ()):
+def _of_actions(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:
+    for action in node.of(ActionWords).performs:
         for part, kind in enumerate(("goal", "result", "feedback")):
             found = fields_of(lab, action.type, part)
             yield from _of_values(lab, node.executable, kind, action.action, found)
-        yield Fault(lab, node.executable, "cancel", "second_cancel_refused", action.action)
-    for action in getattr(node, "orders", ()):
+        yield BoundaryFault(lab, node.executable, "cancel", "second_cancel_refused", action.action)
+    for action in node.of(ActionWords).orders:
         found = fields_of(lab, action.type)
         yield from _of_values(lab, node.executable, "ordered", action.action, found)
 
 
-def _of_parameters(lab: Lab, node: NodeContract) -> Iterator[Fault]:
-    for parameter in getattr(node, "parameters", ()):
+def _of_parameters(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:
+    for parameter in node.of(ParameterWords).parameters:
         bounded = parameter.least is not None or parameter.most is not None
         refuses = bounded or parameter.read_only or parameter.not_above
         floating = bounded and parameter.type == "double"
@@ -138,50 +141,54 @@ def _of_parameters(lab: Lab, node: NodeContract) -> Iterator[Fault]:
             "not_described": bounded,
         }
         for operator in filter(may.get, may):
-            yield Fault(lab, node.executable, "parameter", operator, parameter.name)
+            yield BoundaryFault(lab, node.executable, "parameter", operator, parameter.name)
 
 
-def _of_life(lab: Lab, node: NodeContract) -> Iterator[Fault]:
-    yield Fault(lab, node.executable, "node", "extra_publisher")
-    yield Fault(lab, node.executable, "node", "extra_subscription")
-    yield Fault(lab, node.executable, "node", "ends_late")
-    yield Fault(lab, node.executable, "node", "exit_code")
-    yield Fault(lab, node.executable, "events", "ends_after")
+def _of_life(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:
+    yield BoundaryFault(lab, node.executable, "node", "extra_publisher")
+    yield BoundaryFault(lab, node.executable, "node", "extra_subscription")
+    yield BoundaryFault(lab, node.executable, "node", "ends_late")
+    yield BoundaryFault(lab, node.executable, "node", "exit_code")
+    yield BoundaryFault(lab, node.executable, "events", "ends_after")
 
 
-def _of_bags(lab: Lab) -> Iterator[Fault]:
+def _of_bags(lab: Lab) -> Iterator[BoundaryFault]:
     reads = getattr(lab.card, "reads_bags", None)
     if reads is None:
         return
     name = ODOMETRY.rpartition("/")[2]
     for operator in of_flow("read", []):
-        yield Fault(lab, reads.executable, "read", operator, reads.odometry)
+        yield BoundaryFault(lab, reads.executable, "read", operator, reads.odometry)
     for fault in _of_fields(lab, reads.executable, "read", "", fields_of(lab, ODOMETRY)):
         if fault.operator != "swapped":
-            yield Fault(lab, fault.executable, "read", fault.operator, "", fault.field, name)
-    yield Fault(lab, reads.executable, "node", "exit_code")
+            yield BoundaryFault(
+                lab, fault.executable, "read", fault.operator, "", fault.field, name
+            )
+    yield BoundaryFault(lab, reads.executable, "node", "exit_code")
 
 
-def _of_values(lab: Lab, program: str, kind: str, at: str, fields: list[Field]) -> Iterator[Fault]:
+def _of_values(
+    lab: Lab, program: str, kind: str, at: str, fields: list[MessageField]
+) -> Iterator[BoundaryFault]:
     for operator in of_flow(kind, fields):
-        yield Fault(lab, program, kind, operator, at)
+        yield BoundaryFault(lab, program, kind, operator, at)
     yield from _of_fields(lab, program, kind, at, fields)
 
 
 def _of_fields(
-    lab: Lab, program: str, kind: str, at: str, fields: Iterable[Field]
-) -> Iterator[Fault]:
+    lab: Lab, program: str, kind: str, at: str, fields: Iterable[MessageField]
+) -> Iterator[BoundaryFault]:
     listed = list(fields)
     for number, field in enumerate(listed):
         beside = _beside(field, listed[number + 1 :])
         for operator in of_field(kind, field):
             if operator != "swapped":
-                yield Fault(lab, program, kind, operator, at, field.path)
+                yield BoundaryFault(lab, program, kind, operator, at, field.path)
             elif beside:
-                yield Fault(lab, program, kind, operator, at, field.path, beside.path)
+                yield BoundaryFault(lab, program, kind, operator, at, field.path, beside.path)
 
 
-def _beside(field: Field, later: Iterable[Field]) -> Field | None:
+def _beside(field: MessageField, later: Iterable[MessageField]) -> MessageField | None:
     """The next one of its kind in the same message."""
     like = (field.around, field.kind)
     return next((each for each in later if (each.around, each.kind) == like), None)

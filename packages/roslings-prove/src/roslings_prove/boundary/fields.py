@@ -28,7 +28,7 @@ FIELD = re.compile(
 
 
 @dataclass(frozen=True)
-class Field:
+class MessageField:
     """One value in a message."""
 
     path: str
@@ -46,7 +46,7 @@ class Field:
         return self.path.rpartition(".")[0]
 
 
-def fields_of(lab: Lab, type_name: str, part: int = 0) -> list[Field]:
+def fields_of(lab: Lab, type_name: str, part: int = 0) -> list[MessageField]:
     """The single values of a message; of a service or an action, those of one of its parts.
 
     Lists have none: their lengths are the node's own. Raises UnknownInterface.
@@ -72,18 +72,18 @@ def _prefixes() -> list[str]:
     return [*filter(None, sourced), sys.prefix]
 
 
-def _fields(lab: Lab, text: str, package: str) -> Iterator[Field]:
+def _fields(lab: Lab, text: str, package: str) -> Iterator[MessageField]:
     for line in text.splitlines():
         found = FIELD.match(line.partition("#")[0])
         if not found or found["many"]:
             continue
         if kind := KINDS.get(found["type"]):
-            yield Field(found["name"], kind)
+            yield MessageField(found["name"], kind)
             continue
         inner = _full(found["type"], package)
         if inner and inner != "builtin_interfaces/msg/Time":
             for each in fields_of(lab, inner):
-                yield Field(f"{found['name']}.{each.path}", each.kind)
+                yield MessageField(f"{found['name']}.{each.path}", each.kind)
 
 
 def _full(name: str, package: str) -> str:

@@ -1,6 +1,6 @@
 """One thing goes wrong between this package's nodes and rclpy.
 
-This file is copied into a package as it stands: it imports nothing of roslings, and of ROS by name
+This file is copied into a package as it stands. It imports nothing of roslings, and of ROS by name
 only, since a package must list what its code imports. `install` is told one fault as plain values;
 `faults.py` says which there are. A fault that acts writes `MARK` once, so that evidence shows it.
 The operator `neutral` goes everywhere that any fault goes, and changes nothing.
@@ -19,7 +19,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +35,7 @@ ENDS_LATE_S = 4.0
 EXIT_CODE = 3
 
 
-class Fault:
+class InjectedFault:
     """What goes wrong, and whether it has acted."""
 
     def __init__(self, words: Mapping[str, str]) -> None:
@@ -125,7 +125,7 @@ FIELDS: dict[str, Callable[[Any, Memory], Any]] = {
 class FieldChange:
     """Changes one field of each message."""
 
-    def __init__(self, fault: Fault) -> None:
+    def __init__(self, fault: InjectedFault) -> None:
         self._fault = fault
         self._memory: Memory = {}
 
@@ -172,7 +172,7 @@ def is_zero(message: Any) -> bool:
 class Stream:
     """Messages on their way through one place: each becomes none, one or two."""
 
-    def __init__(self, fault: Fault) -> None:
+    def __init__(self, fault: InjectedFault) -> None:
         self._fault = fault
         self._field = FieldChange(fault)
         self._count = 0
@@ -209,34 +209,42 @@ class Stream:
         )
 
 
+def passing(stream: Stream, message: Any) -> list[Any]:
+    """What a stream lets through; a message in bytes passes as it is."""
+    return [message] if isinstance(message, bytes) else stream(message)
+
+
 def is_coroutine(callback: Any) -> bool:
     """Whether rclpy awaits it."""
     return asyncio.iscoroutinefunction(callback)
 
 
-def hearing(fault: Fault, callback: Callable[..., Any]) -> Callable[..., Any]:
+def hearing(fault: InjectedFault, callback: Callable[..., Any]) -> Callable[..., Any]:
     """The callback of a subscription, behind a stream; of its form rclpy makes the same."""
     stream = Stream(fault)
 
+    def calls(message: Any, *rest: Any) -> Iterator[Any]:
+        return (callback(each, *rest) for each in passing(stream, message))
+
     @functools.wraps(callback)
     def heard(message: Any, *rest: Any) -> None:
-        for each in [message] if isinstance(message, bytes) else stream(message):
-            callback(each, *rest)
+        for _ in calls(message, *rest):
+            pass
 
     @functools.wraps(callback)
     async def awaited(message: Any, *rest: Any) -> None:
-        for each in [message] if isinstance(message, bytes) else stream(message):
-            await callback(each, *rest)
+        for each in calls(message, *rest):
+            await each
 
     return awaited if is_coroutine(callback) else heard
 
 
-def sending(fault: Fault, send: Callable[[Any], Any]) -> Callable[[Any], None]:
+def sending(fault: InjectedFault, send: Callable[[Any], Any]) -> Callable[[Any], None]:
     """`publish`, behind a stream."""
     stream = Stream(fault)
 
     def sent(message: Any) -> None:
-        for each in [message] if isinstance(message, bytes) else stream(message):
+        for each in passing(stream, message):
             if fault.operator == "late":
                 fault.acts()
                 _later(send, copy.deepcopy(each))
@@ -259,7 +267,7 @@ def _if_it_can(send: Callable[[Any], Any], message: Any) -> None:
         return
 
 
-def other_qos(fault: Fault, profile: Any) -> Any:
+def other_qos(fault: InjectedFault, profile: Any) -> Any:
     """The profile with the other word for reliability or durability."""
     qos = importlib.import_module("rclpy.qos")
     changed = qos.QoSProfile(depth=profile) if isinstance(profile, int) else copy.copy(profile)
@@ -289,7 +297,7 @@ def over(kind: type[Any], name: str) -> Callable[[Callable[..., Any]], None]:
     return put_there
 
 
-def around_topics(fault: Fault) -> None:
+def around_topics(fault: InjectedFault) -> None:
     """Publishers and subscriptions."""
     node = importlib.import_module("rclpy.node").Node
 
@@ -323,7 +331,7 @@ def around_topics(fault: Fault) -> None:
 class Answering:
     """The callback of a service, with a change on its way in or out."""
 
-    def __init__(self, fault: Fault, name: str, callback: Callable[..., Any]) -> None:
+    def __init__(self, fault: InjectedFault, name: str, callback: Callable[..., Any]) -> None:
         self._fault = fault
         self._callback = callback
         self._asked = FieldChange(fault) if fault.is_at("request", name) else None
@@ -351,7 +359,7 @@ class Answering:
         return silent
 
 
-def around_services(fault: Fault) -> None:
+def around_services(fault: InjectedFault) -> None:
     """Those that a node serves."""
     node = importlib.import_module("rclpy.node").Node
 
@@ -375,7 +383,7 @@ def around_services(fault: Fault) -> None:
         return service
 
 
-def around_clients(fault: Fault) -> None:
+def around_clients(fault: InjectedFault) -> None:
     """Those that ask."""
     node = importlib.import_module("rclpy.node").Node
 
@@ -398,7 +406,7 @@ def around_clients(fault: Fault) -> None:
 class Performing:
     """The callbacks of an action server, with one change in what they get or give."""
 
-    def __init__(self, fault: Fault, name: str) -> None:
+    def __init__(self, fault: InjectedFault, name: str) -> None:
         self._fault = fault
         self._name = name
         self._goal = FieldChange(fault)
@@ -454,7 +462,7 @@ class Performing:
         return self._result(result) if self._fault.is_at("result", self._name) else result
 
 
-def around_actions(fault: Fault) -> None:
+def around_actions(fault: InjectedFault) -> None:
     """Action servers and their clients."""
     actions = importlib.import_module("rclpy.action")
 
@@ -493,7 +501,7 @@ def other_default(value: Any) -> Any:
     return f"{value}_other" if isinstance(value, str) else value
 
 
-def around_parameters(fault: Fault) -> None:
+def around_parameters(fault: InjectedFault) -> None:
     """How parameters are declared, described and set."""
     if fault.kind not in ("parameter", "everywhere"):
         return
@@ -525,7 +533,7 @@ def around_parameters(fault: Fault) -> None:
         return result
 
 
-def _declared(fault: Fault, words: Any) -> Any:
+def _declared(fault: InjectedFault, words: Any) -> Any:
     name, *rest = words
     if name != fault.at or fault.operator != "other_default" or not rest:
         return words
@@ -533,7 +541,7 @@ def _declared(fault: Fault, words: Any) -> Any:
     return (name, other_default(rest[0]), *rest[1:])
 
 
-def _described(fault: Fault, descriptor: Any) -> Any:
+def _described(fault: InjectedFault, descriptor: Any) -> Any:
     if descriptor.name != fault.at or fault.operator != "not_described":
         return descriptor
     changed = copy.deepcopy(descriptor)
@@ -543,7 +551,7 @@ def _described(fault: Fault, descriptor: Any) -> Any:
     return changed
 
 
-def _is_let_in(fault: Fault, value: Any) -> bool:
+def _is_let_in(fault: InjectedFault, value: Any) -> bool:
     number = value if isinstance(value, float) else 0.0
     return (
         fault.operator == "bound_ignored"
@@ -552,13 +560,13 @@ def _is_let_in(fault: Fault, value: Any) -> bool:
     )
 
 
-def _success(fault: Fault) -> Any:
+def _success(fault: InjectedFault) -> Any:
     fault.acts()
     messages = importlib.import_module("rcl_interfaces.msg")
     return messages.SetParametersResult(successful=True)
 
 
-def around_nodes(fault: Fault) -> None:
+def around_nodes(fault: InjectedFault) -> None:
     """What a node is beside what it says: endpoints that nobody asked for, and its end."""
     node = importlib.import_module("rclpy.node").Node
     if fault.operator in ("extra_publisher", "extra_subscription"):
@@ -574,7 +582,7 @@ def around_nodes(fault: Fault) -> None:
         atexit.register(_wait_at_the_end, fault)
 
 
-def _add_endpoint(fault: Fault, node: Any) -> None:
+def _add_endpoint(fault: InjectedFault, node: Any) -> None:
     kind = importlib.import_module("std_msgs.msg").String
     if fault.operator == "extra_publisher":
         node.create_publisher(kind, "boundary_extra", 10)
@@ -583,19 +591,19 @@ def _add_endpoint(fault: Fault, node: Any) -> None:
     fault.acts()
 
 
-def _exit_with_code(fault: Fault) -> None:
+def _exit_with_code(fault: InjectedFault) -> None:
     fault.acts()
     sys.stdout.flush()
     os._exit(EXIT_CODE)
 
 
-def _wait_at_the_end(fault: Fault) -> None:
+def _wait_at_the_end(fault: InjectedFault) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     fault.acts()
     time.sleep(ENDS_LATE_S)
 
 
-def around_bags(fault: Fault) -> None:
+def around_bags(fault: InjectedFault) -> None:
     """A program that reads a bag: messages on their way out of the file."""
     if fault.kind not in ("read", "everywhere"):
         return
@@ -632,7 +640,7 @@ def install(words: Mapping[str, str]) -> None:
     program = Path(sys.argv[0]).name
     if words["executable"] not in ("", program):
         return
-    fault = Fault(words)
+    fault = InjectedFault(words)
     if fault.operator == "neutral":
         fault.acts()
     for around in (

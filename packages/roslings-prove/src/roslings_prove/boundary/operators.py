@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from roslings_prove.boundary.fields import Field
+from roslings_prove.boundary.fields import MessageField
 
 WORDS = {
     "zero": "is 0, false or empty",
@@ -168,7 +168,7 @@ FIELD: dict[str, dict[str, tuple[str, ...]]] = {
 """Kind of place, and of value, to what may happen to one field there."""
 
 
-def of_field(kind: str, field: Field) -> Iterator[str]:
+def of_field(kind: str, field: MessageField) -> Iterator[str]:
     """The operators for a field at a place of this kind."""
     for operator in FIELD[kind]["number" if field.is_number else field.kind]:
         fits_unsigned = operator not in ("negated", "absolute")
@@ -178,7 +178,7 @@ def of_field(kind: str, field: Field) -> Iterator[str]:
             yield operator
 
 
-def of_flow(kind: str, fields: list[Field]) -> Iterator[str]:
+def of_flow(kind: str, fields: list[MessageField]) -> Iterator[str]:
     """The operators for whole messages at a place of this kind."""
     kinds = {field.kind for field in fields}
     for operator in FLOW[kind]:

@@ -14,11 +14,11 @@ from roslings.commands.options import whole_number
 
 if TYPE_CHECKING:
     from roslings.course import Lab
-    from roslings_prove.telling import Told
+    from roslings_prove.telling import ProofLine
 
 
 USUALLY_PROVEN = ("packages", "contract")
-PROVABLE = (*USUALLY_PROVEN, "generated", "boundary", "rewritten", "variants")
+PROVABLE = (*USUALLY_PROVEN, "generated", "boundary", "rewritten", "variants", "walks")
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -78,6 +78,11 @@ def add_options(word: argparse.ArgumentParser) -> None:
         help="each value of variants.yaml: the solution in these words gets 100",
     )
     word.add_argument(
+        "--walks",
+        action="store_true",
+        help="a lab whose nodes have states: its solution keeps its word in 100 orders of events",
+    )
+    word.add_argument(
         "--kept",
         action="store_true",
         help="judge all proofs that are kept, and say which are stale; runs no node",
@@ -121,8 +126,8 @@ def _prove_labs(options: argparse.Namespace) -> int:
     if not options.labs:
         print("roslings: name a lab, or --drills. For example: topics", file=sys.stderr)
         return WRONG_USE
-    from roslings.report.progress import Progress
-    from roslings_class.command import Teller
+    from roslings.report.progress import ProgressLine
+    from roslings_class.command import ProgressTeller
     from roslings_prove.prove import Proof
     from roslings_prove.telling import told
 
@@ -134,8 +139,12 @@ def _prove_labs(options: argparse.Namespace) -> int:
         print("Nothing was graded. Mend this first, or grade all the same: --anyway")
         return FAILED
     try:
-        with Progress() as progress:
-            graded = [line for part in parts for line in part(labs, Teller(progress), options.jobs)]
+        with ProgressLine() as progress:
+            graded = [
+                line
+                for part in parts
+                for line in part(labs, ProgressTeller(progress), options.jobs)
+            ]
     except KeyboardInterrupt:
         if options.generated or options.boundary:
             print("\nWhat is graded is kept. The same command goes on from here.", file=sys.stderr)
@@ -152,7 +161,7 @@ def _prove_labs(options: argparse.Namespace) -> int:
     return INCONCLUSIVE if all(proof.is_open for proof in wrong) else FAILED
 
 
-def _seen_in_files(labs: Iterable[Lab], *, with_contract: bool) -> list[Told]:
+def _seen_in_files(labs: Iterable[Lab], *, with_contract: bool) -> list[ProofLine]:
     """What can be seen without running anything.
 
     Its task is looked at where its files fit: until then some of what accounts for it is missing.
@@ -160,7 +169,7 @@ def _seen_in_files(labs: Iterable[Lab], *, with_contract: bool) -> list[Told]:
     from roslings_prove.consistency import files_fit
     from roslings_prove.contract import contract_is_told
 
-    seen: list[Told] = []
+    seen: list[ProofLine] = []
     for lab in labs:
         proofs = list(files_fit(lab))
         seen += proofs
@@ -169,7 +178,7 @@ def _seen_in_files(labs: Iterable[Lab], *, with_contract: bool) -> list[Told]:
     return seen
 
 
-def _do_not_fit(seen: Sequence[Told], options: argparse.Namespace) -> bool:
+def _do_not_fit(seen: Sequence[ProofLine], options: argparse.Namespace) -> bool:
     """Whether some of it is wrong; then that is said."""
     from roslings_prove.prove import Proof
     from roslings_prove.telling import told
@@ -199,8 +208,8 @@ def _prove_drills(options: argparse.Namespace) -> int:
 
 def _prove_kept(options: argparse.Namespace) -> int:
     """Judge kept proofs; measure what is stale or due."""
-    from roslings.report.progress import Progress
-    from roslings_class.command import Teller
+    from roslings.report.progress import ProgressLine
+    from roslings_class.command import ProgressTeller
     from roslings_prove.proofs.command import due, kept, labs_or_all, recorded
     from roslings_prove.prove import Proof
     from roslings_prove.telling import told
@@ -209,8 +218,8 @@ def _prove_kept(options: argparse.Namespace) -> int:
     if _do_not_fit(_seen_in_files(labs, with_contract=False), options):
         print("No proof was judged or made. Mend this first.")
         return FAILED
-    with Progress() as progress:
-        teller = Teller(progress)
+    with ProgressLine() as progress:
+        teller = ProgressTeller(progress)
         lines = [
             *(kept(labs) if options.kept else ()),
             *(recorded(labs, teller, options.jobs, due=options.due) if options.record else ()),
@@ -259,6 +268,10 @@ def _proofs_of(name: str, options: argparse.Namespace) -> Callable[..., Iterable
         from roslings_prove.variants import prove_variants
 
         return prove_variants
+    if name == "walks":
+        from roslings_prove.walks import prove_walks
+
+        return prove_walks
     if name == "contract":
         from roslings_prove.contract import prove_contract
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from roslings.course.files import Location
 from roslings.course.kinds import Kind
-from roslings_changes.card_words import Word
+from roslings_changes.card_words import CardWord
 
 OTHER_TYPES = {
     "msg": ("std_msgs/msg/String", "std_msgs/msg/Int32"),
@@ -32,10 +32,10 @@ BESIDE = 0.05
 
 
 @dataclass(frozen=True)
-class Change:
+class CardChange:
     """Another card, and what must come of the unchanged solution by it."""
 
-    word: Word
+    word: CardWord
     about: str
     """What the card says now."""
     places: tuple[tuple[Location, Any], ...]
@@ -63,12 +63,12 @@ class Change:
         return re.sub(own, lambda _: f'"{value}"', text)
 
 
-def changes_of(word: Word) -> list[Change]:
+def changes_of(word: CardWord) -> list[CardChange]:
     """What proves the word; empty where only a mutant can."""
     return list(_BY_KIND[word.kind](word))
 
 
-def _other(word: Word) -> Iterator[Change]:
+def _other(word: CardWord) -> Iterator[CardChange]:
     if word.key == "hz":
         yield _says(word, word.value * (1 + FAR * word.around["within"]))
         return
@@ -76,8 +76,8 @@ def _other(word: Word) -> Iterator[Change]:
         yield _says(word, value)
 
 
-def _says(word: Word, value: Any, must_fail: bool = True) -> Change:
-    return Change(word, f"{word.key}: {value}", ((word.path, value),), must_fail)
+def _says(word: CardWord, value: Any, must_fail: bool = True) -> CardChange:
+    return CardChange(word, f"{word.key}: {value}", ((word.path, value),), must_fail)
 
 
 def _others(value: Any, choices: tuple[Any, ...]) -> list[Any]:
@@ -109,21 +109,21 @@ SIDES = tuple(
 """So many tolerances off, on both sides: just outside fails, just inside does not."""
 
 
-def _tolerance(word: Word) -> Iterator[Change]:
+def _tolerance(word: CardWord) -> Iterator[CardChange]:
     """What is asked for moves; what the solution does is then just outside, or just inside."""
     return _of_a_rate(word) if "hz" in word.around else _of_numbers(word)
 
 
-def _of_a_rate(word: Word) -> Iterator[Change]:
+def _of_a_rate(word: CardWord) -> Iterator[CardChange]:
     hz, within = word.around["hz"], word.value
     rate = (*word.path[:-1], "hz")
     for off, must_fail in SIDES:
         moved = round(hz / (1 + off * within), 6)
         about = f"hz: {moved} and within: {within}, with {hz} Hz measured"
-        yield Change(word, about, ((rate, moved),), must_fail)
+        yield CardChange(word, about, ((rate, moved),), must_fail)
 
 
-def _of_numbers(word: Word) -> Iterator[Change]:
+def _of_numbers(word: CardWord) -> Iterator[CardChange]:
     """By a number that each message holds; none where the card names none."""
     fields = word.around.get("fields", {})
     numbers = [(name, value) for name, value in fields.items() if isinstance(value, float)]
@@ -132,18 +132,18 @@ def _of_numbers(word: Word) -> Iterator[Change]:
         for off, must_fail in SIDES:
             moved = round(value + off * word.value * max(1.0, abs(value)), 9)
             about = f"{name}: {moved} and {word.key}: {word.value}, with {value} measured"
-            yield Change(word, about, ((place, moved),), must_fail)
+            yield CardChange(word, about, ((place, moved),), must_fail)
 
 
-def _most(word: Word) -> Iterator[Change]:
+def _most(word: CardWord) -> Iterator[CardChange]:
     yield _says(word, NEXT_TO_NOTHING_S)
 
 
-def _least(word: Word) -> Iterator[Change]:
+def _least(word: CardWord) -> Iterator[CardChange]:
     yield _says(word, HUGE)
 
 
-def _edge(word: Word) -> Iterator[Change]:
+def _edge(word: CardWord) -> Iterator[CardChange]:
     """By a tenth of what lies between both edges, and by one where there is one alone."""
     least, most = word.around.get("least"), word.around.get("most")
     between = (most - least) / 10 if least is not None and most is not None else 1
@@ -152,11 +152,11 @@ def _edge(word: Word) -> Iterator[Change]:
         yield _says(word, moved)
 
 
-def _none(word: Word) -> Iterator[Change]:
+def _none(word: CardWord) -> Iterator[CardChange]:
     return iter(())
 
 
-_BY_KIND: dict[Kind, Callable[[Word], Iterator[Change]]] = {
+_BY_KIND: dict[Kind, Callable[[CardWord], Iterator[CardChange]]] = {
     Kind.EXPECTED: _other,
     Kind.TOLERANCE: _tolerance,
     Kind.MOST: _most,

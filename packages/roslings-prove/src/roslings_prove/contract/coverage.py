@@ -1,7 +1,8 @@
 """Which words of a card are judged, and which are not: every one has its proof.
 
-A word is judged where the unchanged solution loses a point by a card that says another one, or
-where a mutant that fails names it (`proves:`). What is not judged stands under `not_judged`.
+A word is judged where the unchanged solution loses a point by a card that says another one. It is
+judged, too, where a mutant that fails names it (`proves:`). What is not judged stands under
+`not_judged`.
 """
 
 from __future__ import annotations
@@ -15,15 +16,15 @@ import yaml
 
 from roslings.course import Lab
 from roslings.course.files import read_tree
+from roslings.course.grader import Clock
 from roslings.experiment.run_folder import run_folder
-from roslings.grader import Clock
-from roslings_changes.card_words import Word, words_of
+from roslings_changes.card_words import CardWord, words_of
 from roslings_class.gradebook import gradebook
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.scheduler import Watcher
-from roslings_prove.contract.changes import Change, changes_of
-from roslings_prove.contract.promises import Account, not_judged_words, prove_promises
-from roslings_prove.contract.reworded import LIFE, NOTE, Wanted
+from roslings_prove.contract.changes import CardChange, changes_of
+from roslings_prove.contract.promises import PromiseAccount, not_judged_words, prove_promises
+from roslings_prove.contract.reworded import ENTRY_POINT, NOTE, WantedVerdict
 from roslings_prove.prove import Proof, Solution, graded, proof_of
 
 SEEN = "seen"
@@ -56,7 +57,7 @@ class Reworded:
     """The solution, judged by a card with one change."""
 
     lab: Lab
-    change: Change
+    change: CardChange
     course: Path
     """Where that card lies."""
     clock: Clock = "auto"
@@ -76,7 +77,7 @@ class Reworded:
         """It is there."""
         return self.lab.solution
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """That nothing noticed the change, or that something did which should not."""
         failed = failed_in(result)
         if self.change.must_fail:
@@ -86,15 +87,17 @@ class Reworded:
         return ""
 
 
-def failed_in(result: Result) -> list[str]:
+def failed_in(result: GradingResult) -> list[str]:
     """The checks that fail."""
     checks = result.verdict.checks if result.verdict else ()
     return [check.id for check in checks if check.outcome == "fail"]
 
 
-def contract_is_told(lab: Lab) -> Iterator[Proof | Account]:
-    """What can be seen without running anything: a proof for each sentence of the task, and of each
-    word that a mutant names whether the card has it.
+def contract_is_told(lab: Lab) -> Iterator[Proof | PromiseAccount]:
+    """What can be seen without running anything.
+
+    It is a proof for each sentence of the task. Of each word that a mutant names it tells whether
+    the card has it.
     """
     yield from prove_promises(lab)
     known = {word.place for word in words_of(lab.folder / "card.yaml")}
@@ -114,7 +117,7 @@ def prove_contract(
             if lab.name in seen
             for each in _changed(lab, seen[lab.name], scratch / "courses" / lab.name)
         ]
-        results = graded(changed, scratch, watcher, jobs, book="reworded", life=LIFE)
+        results = graded(changed, scratch, watcher, jobs, book="reworded", entry_point=ENTRY_POINT)
     for lab in unseen:
         problem = "it must get 100 of 100 before its card can be proven"
         yield Proof(f"{lab.name}: the solution is measured", problem)
@@ -152,13 +155,13 @@ def _changed(lab: Lab, seen: Path, folder: Path) -> Iterator[Reworded]:
             (course / "graders" / lab.beside.name).symlink_to(lab.beside)
         card = yaml.safe_dump(change.apply(tree), allow_unicode=True, sort_keys=False)
         (course / "labs" / lab.name / "card.yaml").write_text(card, "utf-8")
-        wanted = Wanted(seen=seen, must_fail=change.must_fail)
+        wanted = WantedVerdict(seen=seen, must_fail=change.must_fail)
         (course / NOTE).write_text(wanted.model_dump_json(), "utf-8")
         yield Reworded(lab, change, course)
 
 
 def _proofs(
-    lab: Lab, changed: Collection[Reworded], results: Mapping[str, Result]
+    lab: Lab, changed: Collection[Reworded], results: Mapping[str, GradingResult]
 ) -> Iterator[Proof | Coverage]:
     words = _to_be_judged(lab)
     all_words = words_of(lab.folder / "card.yaml")
@@ -172,7 +175,7 @@ def _proofs(
     yield Coverage(lab.name, hold, len(words), len(all_words) - len(words))
 
 
-def _to_be_judged(lab: Lab) -> list[Word]:
+def _to_be_judged(lab: Lab) -> list[CardWord]:
     """Without those that the task says are not."""
     free = not_judged_words(lab.folder)
     return [word for word in words_of(lab.folder / "card.yaml") if word.place not in free]
@@ -188,7 +191,7 @@ def mutants_by_word(lab: Lab) -> dict[str, list[str]]:
 
 
 def _proof(
-    lab: Lab, word: Word, own: Sequence[tuple[Reworded, Result]], mutants: Sequence[str]
+    lab: Lab, word: CardWord, own: Sequence[tuple[Reworded, GradingResult]], mutants: Sequence[str]
 ) -> Proof:
     """By the mutants that name the word, else by all of its changes."""
     about = f"{lab.name}: card.yaml:{word.line}: {word.name}"

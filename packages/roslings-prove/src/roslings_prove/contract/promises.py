@@ -16,8 +16,8 @@ from pathlib import Path
 from roslings.course import Lab, Mutant
 from roslings.course.files import line_in
 from roslings.course.promises import NAME, Promise, Promises, promises_in
-from roslings.course.sentences import Passage, Sentence, passages_of
-from roslings_changes.card_words import Word, texts_of, words_of
+from roslings.course.sentences import Passage, TaskSentence, passages_of
+from roslings_changes.card_words import CardWord, texts_of, words_of
 from roslings_prove.prove import Proof
 
 JOINING = {"and", "or", "but", "so", "then"}
@@ -27,7 +27,7 @@ SHORT = 40
 
 
 @dataclass(frozen=True)
-class Account:
+class PromiseAccount:
     """What accounts for the sentences of a task, and the texts of a card."""
 
     lab: str
@@ -59,7 +59,7 @@ WAYS = {
 
 
 @dataclass(frozen=True)
-class Said:
+class CourseText:
     """A passage of the task, or a text of the card."""
 
     where: str
@@ -70,10 +70,10 @@ class Said:
 
 
 @dataclass(frozen=True)
-class Span:
+class PromiseSpan:
     """Where the words of an entry stand in what was said."""
 
-    said: Said
+    said: CourseText
     start: int
     end: int
     promise: Promise
@@ -91,24 +91,24 @@ class Task:
         self.mutants: dict[str, Mutant] = {mutant.name: mutant for mutant in lab.mutants()}
 
     @cached_property
-    def said(self) -> list[Said]:
+    def said(self) -> list[CourseText]:
         """Passages of the task, then texts of the card."""
         passages = passages_of(self.lab.task.read_text("utf-8"))
-        of_task = [Said(f"task.md:{each.line}", each) for each in passages]
+        of_task = [CourseText(f"task.md:{each.line}", each) for each in passages]
         return of_task + [_text(word) for word in self.texts.values()]
 
     @cached_property
-    def spans(self) -> list[Span]:
+    def spans(self) -> list[PromiseSpan]:
         """Of all entries whose words are found once."""
         found = (self.found(promise) for promise in self.promises.sentences)
         return [spans[0] for spans in found if len(spans) == 1]
 
-    def found(self, promise: Promise) -> list[Span]:
+    def found(self, promise: Promise) -> list[PromiseSpan]:
         """Where an entry's words stand."""
         words = " ".join(promise.says.split())
         there = [said for said in self.said if said.place == promise.at]
         return [
-            Span(said, start, start + len(words or said.passage.text), promise)
+            PromiseSpan(said, start, start + len(words or said.passage.text), promise)
             for said in there
             for start in _starts(words, said.passage.text)
         ]
@@ -147,9 +147,9 @@ class Task:
         return f"these mutants fail in other checks: {', '.join(idle)}" if idle else ""
 
 
-def _text(word: Word) -> Said:
+def _text(word: CardWord) -> CourseText:
     text = " ".join(str(word.value).split())
-    return Said(f"card.yaml:{word.line}: {word.name}", Passage(text, word.line), word.place)
+    return CourseText(f"card.yaml:{word.line}: {word.name}", Passage(text, word.line), word.place)
 
 
 def _starts(words: str, text: str) -> list[int]:
@@ -161,7 +161,7 @@ def _unknown(kind: str, names: tuple[str, ...], known: Mapping[str, object]) -> 
     return f"there is no {kind} {', '.join(strange)}" if strange else ""
 
 
-def prove_promises(lab: Lab) -> Iterator[Proof | Account]:
+def prove_promises(lab: Lab) -> Iterator[Proof | PromiseAccount]:
     """A proof for each sentence that asks for something, and what is wrong with the entries."""
     task = Task(lab)
     yield from _entries(task)
@@ -172,7 +172,7 @@ def prove_promises(lab: Lab) -> Iterator[Proof | Account]:
         left = _left_over(said, sentence, own)
         yield _proof(task, said, sentence, own, left)
         ways.update([_way(own[0].promise)] if own and not left else [])
-    yield Account(lab.name, len(sentences), {word: ways[way] for way, word in WAYS.items()})
+    yield PromiseAccount(lab.name, len(sentences), {word: ways[way] for way, word in WAYS.items()})
 
 
 def _entries(task: Task) -> Iterator[Proof]:
@@ -191,18 +191,18 @@ def _wrong_entry(task: Task, line: int, problem: str) -> Proof:
     return Proof(f"{task.lab.name}: {NAME}:{line} says what is so", problem)
 
 
-def _asking(said: Said) -> list[Sentence]:
+def _asking(said: CourseText) -> list[TaskSentence]:
     """A text of the card is one; the whole of it asks."""
     if said.place:
-        return [Sentence(0, len(said.passage.text), True)]
+        return [TaskSentence(0, len(said.passage.text), True)]
     return [each for each in said.passage.sentences if each.asks]
 
 
-def _meet(span: Span, sentence: Sentence) -> bool:
+def _meet(span: PromiseSpan, sentence: TaskSentence) -> bool:
     return span.start < sentence.end and sentence.start < span.end
 
 
-def _left_over(said: Said, sentence: Sentence, spans: list[Span]) -> str:
+def _left_over(said: CourseText, sentence: TaskSentence, spans: list[PromiseSpan]) -> str:
     """The words of a sentence that stand in no entry."""
     letters = [
         " " if any(span.start <= at < span.end for span in spans) else said.passage.text[at]
@@ -216,7 +216,9 @@ def _way(promise: Promise) -> str:
     return next(way for way in WAYS if getattr(promise, way))
 
 
-def _proof(task: Task, said: Said, sentence: Sentence, spans: list[Span], left: str) -> Proof:
+def _proof(
+    task: Task, said: CourseText, sentence: TaskSentence, spans: list[PromiseSpan], left: str
+) -> Proof:
     text = said.passage.text[sentence.start : sentence.end]
     about = f"{task.lab.name}: {said.where}: {_short(text)!r}"
     if left:
@@ -225,7 +227,7 @@ def _proof(task: Task, said: Said, sentence: Sentence, spans: list[Span], left: 
     return Proof(f"{about}: {'; '.join(dict.fromkeys(map(_how, spans)))}")
 
 
-def _how(span: Span) -> str:
+def _how(span: PromiseSpan) -> str:
     """What accounts for it, in few words."""
     promise = span.promise
     if promise.checks:

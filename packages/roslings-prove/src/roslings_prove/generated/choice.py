@@ -1,7 +1,7 @@
 """Which wrong packages are made of a lab's solution: the same ones each time, spread over it.
 
-The seed is fixed, as the operators are. The order is that of hashes, so that a new operator or a
-new line of a solution moves few of the others, and no version of Python moves any.
+The seed is fixed, as the operators are. The order is that of hashes. So a new operator or a new
+line of a solution moves few of the others, and no version of Python moves any.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from pathlib import Path
 
 from roslings.course import Lab
 from roslings_changes import candidates as changes
-from roslings_changes.candidates import Change
+from roslings_changes.candidates import CodeChange
 
 SEED = 20261123
 WANTED = 100
@@ -23,7 +23,7 @@ WANTED = 100
 
 
 @dataclass(frozen=True)
-class Generated(Change):
+class Generated(CodeChange):
     """A change of a lab's solution."""
 
     lab: Lab

@@ -9,10 +9,10 @@ from roslings.experiment.run_folder import run_folder
 from roslings_class.alone import alone_in
 from roslings_class.errors import BatchError
 from roslings_class.gradebook import gradebook
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.scheduler import Watcher
-from roslings_prove.generated.life import LIFE
-from roslings_prove.generated.packages import Wrong
+from roslings_prove.generated.graded_process import ENTRY_POINT
+from roslings_prove.generated.packages import GeneratedPackage
 from roslings_prove.generated.wrongness import W
 from roslings_prove.prove import Proof, graded, mixed
 
@@ -28,12 +28,12 @@ class AlreadyProving(BatchError):
 
 
 def graded_in(
-    packages: Collection[Wrong[W]],
+    packages: Collection[GeneratedPackage[W]],
     watcher: Watcher,
     jobs: int | None,
     kept: Path,
-    life: str = LIFE,
-) -> Mapping[str, Result]:
+    entry_point: str = ENTRY_POINT,
+) -> Mapping[str, GradingResult]:
     """Package's name to what came of it; results stay in a folder. Raises AlreadyProving."""
     with alone_in(kept, AlreadyProving), run_folder() as scratch:
         return graded(
@@ -43,18 +43,20 @@ def graded_in(
             jobs,
             book=str(kept.absolute()),
             keeps_evidence=True,
-            life=life,
+            entry_point=entry_point,
         )
 
 
-def kept_in(folder: Path) -> Mapping[str, Result]:
+def kept_in(folder: Path) -> Mapping[str, GradingResult]:
     """What an earlier run has found."""
     folder.mkdir(parents=True, exist_ok=True)
     with gradebook(folder, BOOK) as book:
         return book.latest()
 
 
-def how_far(packages: Collection[Wrong[W]], results: Mapping[str, Result]) -> Proof:
+def how_far(
+    packages: Collection[GeneratedPackage[W]], results: Mapping[str, GradingResult]
+) -> Proof:
     """Nothing is proven by a part of them."""
     done = sum(each.name in results for each in packages)
     rest = "" if done == len(packages) else "only they are counted: run it without --so-far"

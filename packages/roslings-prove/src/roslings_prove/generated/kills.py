@@ -12,7 +12,7 @@ from pathlib import Path
 
 from roslings.course import Lab
 from roslings_class.gradebook import Gradebook
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_prove.generated.choice import Generated
 from roslings_prove.proofs.kills import Kill, edit_between, write_kills
 
@@ -25,7 +25,7 @@ Sized = tuple[Kill, int]
 
 
 def keep_kills(
-    lab: Lab, results: Iterable[tuple[Generated, Result]], book: Gradebook, folder: Path
+    lab: Lab, results: Iterable[tuple[Generated, GradingResult]], book: Gradebook, folder: Path
 ) -> int:
     """Name a few of these in the folder of kept proofs; how many. None: as it was."""
     kept = list(islice(_in_bytes(_smallest(_with_sizes(results, book))), KEPT))
@@ -41,7 +41,9 @@ def kill_of(change: Generated, check: str) -> Kill:
     return Kill(name=name, check=check, edit=edit)
 
 
-def _with_sizes(results: Iterable[tuple[Generated, Result]], book: Gradebook) -> Iterator[Sized]:
+def _with_sizes(
+    results: Iterable[tuple[Generated, GradingResult]], book: Gradebook
+) -> Iterator[Sized]:
     for change, result in results:
         content = book.evidence(result)
         checks = result.verdict.checks if result.verdict else ()

@@ -6,19 +6,19 @@ import hashlib
 import shutil
 from dataclasses import dataclass
 from enum import Enum
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Generic
 
 from roslings.course import Lab
+from roslings.course.grader import Clock
 from roslings.course.labs import MUTANTS
-from roslings.grader import Clock
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.version import ENGINE, engine_in
 from roslings_prove.generated.explained import FILE
 from roslings_prove.generated.wrongness import W
 
-NOT_GRADING = frozenset({"cli", "commands", "rqt_graph.py"})
+NOT_GRADING = frozenset({"cli", "commands"})
 """What no grading comes to: a change there leaves results as they are."""
 NOT_JUDGING = frozenset({"solution", "starter", MUTANTS, "hints.yaml", FILE})
 """The same in a lab's folder; the package itself is known by its content."""
@@ -34,7 +34,7 @@ class Fate(Enum):
 
 
 @dataclass(frozen=True)
-class Wrong(Generic[W]):
+class GeneratedPackage(Generic[W]):
     """The solution with one change."""
 
     change: W
@@ -46,9 +46,12 @@ class Wrong(Generic[W]):
         """Whose it is."""
         return self.change.lab
 
-    @property
+    @cached_property
     def name(self) -> str:
-        """With the version of all that judges it: what another one found is no result."""
+        """With the version of all that judges it: what another one found is no result.
+
+        It is asked for again and again, and all files of the lab make it.
+        """
         return f"{self.change.name} by {judged_by(self.lab)}"
 
     @property
@@ -63,12 +66,12 @@ class Wrong(Generic[W]):
         self.change.put_into(package)
         return package.parent
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """That it is as good as the solution."""
         return "" if fate_of(result) is Fate.KILLED else "it passes every check"
 
 
-def fate_of(result: Result | None) -> Fate:
+def fate_of(result: GradingResult | None) -> Fate:
     """Killed by a check that fails, and by nothing else."""
     if result is None or result.state != "graded":
         return Fate.UNCLEAR

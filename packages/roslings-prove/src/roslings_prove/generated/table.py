@@ -20,14 +20,14 @@ HEAD = (
 
 
 @dataclass(frozen=True)
-class Line:
+class TableLine:
     """Something to say."""
 
     line: str
 
 
 @dataclass(frozen=True)
-class Outcome:
+class GeneratedOutcome:
     """What came of all generated packages of a lab."""
 
     lab: str
@@ -104,14 +104,14 @@ class Outcome:
                 yield Proof(f"{each.name} is explained", problem)
 
 
-def told(outcomes: Sequence[Outcome]) -> Iterator[Line | Proof]:
+def told(outcomes: Sequence[GeneratedOutcome]) -> Iterator[TableLine | Proof]:
     """Survivors with their diffs, what must hold, and the table last."""
     for outcome in outcomes:
         for each in () if outcome.is_part else outcome.of(Fate.SURVIVED):
-            yield Line(f"\nNothing catches {each.name}\n{_cut(each.diff)}\n")
+            yield TableLine(f"\nNothing catches {each.name}\n{_cut(each.diff)}\n")
     for outcome in outcomes:
         yield from outcome.proofs()
-    yield Line("\n".join(["", HEAD, *(outcome.row for outcome in outcomes), ""]))
+    yield TableLine("\n".join(["", HEAD, *(outcome.row for outcome in outcomes), ""]))
 
 
 def _cut(diff: str) -> str:

@@ -1,7 +1,7 @@
 """What a mistake costs: of each kept proof, the points that its package lost, and by what.
 
-A check that fails takes its own points. Checks that need it are skipped, and take theirs with them:
-that is right where what they judge is not there, as of a node that never starts. Where it is there,
+A check that fails takes its own points. Checks that need it are skipped, and take theirs with them.
+That is right where what they judge is not there, as of a node that never starts. Where it is there,
 one mistake costs more than it should.
 """
 
@@ -20,7 +20,7 @@ INDENT = " " * 18
 
 
 @dataclass(frozen=True)
-class Word:
+class CheckOutcome:
     """What one check said."""
 
     outcome: str
@@ -99,7 +99,9 @@ def priced(lines: Iterable[KeptProof], full: Mapping[str, float]) -> Iterator[Pr
         yield Price(line.package, lost(words, full, "fail"), lost(words, full, "skip"))
 
 
-def lost(words: Mapping[str, Word], full: Mapping[str, float], outcome: str) -> dict[str, float]:
+def lost(
+    words: Mapping[str, CheckOutcome], full: Mapping[str, float], outcome: str
+) -> dict[str, float]:
     """What the checks of this outcome took."""
     return {
         name: full.get(name, 0.0) - word.points
@@ -108,7 +110,7 @@ def lost(words: Mapping[str, Word], full: Mapping[str, float], outcome: str) -> 
     }
 
 
-def read(word: str) -> Word:
+def read(word: str) -> CheckOutcome:
     """`fail 0 TooSlow`, as a line of kept proofs has it."""
     outcome, points, *_ = word.split(" ")
-    return Word(outcome, float(points))
+    return CheckOutcome(outcome, float(points))

@@ -1,8 +1,8 @@
 """What a program of ours is made of: its modules, and the files that lie beside them.
 
-Followed are imports, those inside of functions too, and texts that name a module or a file beside
-the one that they stand in: what is started by `-m NAME` or read by `with_name("x.xml")` counts.
-Imports for the type checker alone do not.
+Followed are imports, those inside of functions too. Followed are also texts that name a module or a
+file beside the one that they stand in. What is started by `-m NAME` or read by `with_name("x.xml")`
+counts. Imports for the type checker alone do not.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
-from roslings.lab_folders import GRADERS
+from roslings.folders.lab_folders import GRADERS
 from roslings.workspace.normal import digest_of, normal
 
 TABLE = re.compile(rf"roslings\.(capability|capabilities\.[a-z]+)|{GRADERS}\.\w+")
@@ -24,7 +24,7 @@ OF_A_LAB = re.compile(rf"({GRADERS}\.\w+(?:\.\w+)*)(:\w+)?")
 
 
 @dataclass(frozen=True)
-class Tree:
+class ModuleTree:
     """Where modules lie: the folders above our packages, and the one with what labs bring."""
 
     sources: tuple[Path, ...]
@@ -96,7 +96,7 @@ class Code:
 
     file: Path
     body: ast.Module
-    tree: Tree
+    tree: ModuleTree
 
     @cached_property
     def imports(self) -> tuple[Import, ...]:
@@ -208,7 +208,7 @@ def _imports_of(node: ast.AST, code: Code) -> Iterator[Import]:
         yield from (_taken(module, each, code.tree) for each in node.names)
 
 
-def _taken(module: str, name: ast.alias, tree: Tree) -> Import:
+def _taken(module: str, name: ast.alias, tree: ModuleTree) -> Import:
     known_as = name.asname or name.name
     if tree.file_of(inner := f"{module}.{name.name}"):
         return Import("", known_as, inner)
@@ -221,7 +221,7 @@ def _taken(module: str, name: ast.alias, tree: Tree) -> Import:
 class Modules:
     """The modules of a tree; each is read once."""
 
-    tree: Tree
+    tree: ModuleTree
     _code: dict[str, Code] = field(default_factory=dict)
     _digests: dict[int, tuple[ast.stmt, str]] = field(default_factory=dict)
 
@@ -276,7 +276,7 @@ class Modules:
     def does(self, code: Code, told: Told = not_told) -> frozenset[str]:
         """What some code does: its statements, and each name that it takes with what that is.
 
-        In no order, and without where any of it lies: a module that moves does the same, and
+        In no order, and without where any of it lies. A module that moves does the same, and
         another thing of the same name is another. Of what is `told` elsewhere, the name is enough.
         """
         own = {self._digest_of(each) for each in code.body.body if not _is_import(each)}

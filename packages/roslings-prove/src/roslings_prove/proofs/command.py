@@ -19,11 +19,11 @@ from roslings.course import Lab, all_labs, root
 from roslings.course import lab as lab_named
 from roslings_class.scheduler import Watcher
 from roslings_prove.proofs.digests import measuring
-from roslings_prove.proofs.due import Due, Proofs, Standing
+from roslings_prove.proofs.due import Due, Proofs, ProofStanding
 from roslings_prove.proofs.judging import judge_kept
 from roslings_prove.proofs.kept import kept_here
-from roslings_prove.proofs.record import Measured, Recorder, Tally, measured
-from roslings_prove.prove import HasLine, Package, Proof
+from roslings_prove.proofs.record import CountLine, MeasuredPackage, ProofRecorder, measured
+from roslings_prove.prove import HasLine, Proof, ProvenPackage
 
 UNTIL = "ROSLINGS_MUTANTS_UNTIL"
 """Seconds since 1970: `.ci/run` says how long it has."""
@@ -51,13 +51,13 @@ def _judged(name: str) -> list[Proof]:
     return list(judge_kept(lab_named(name), kept_here()))
 
 
-def told_stale(found: Sequence[Standing]) -> Iterator[Tally]:
+def told_stale(found: Sequence[ProofStanding]) -> Iterator[CountLine]:
     """How many of each lab, and why."""
     whose = Counter((each.package.lab.name, each.stale) for each in found)
     for (lab, why), number in sorted(whose.items()):
-        yield Tally(f"{lab}: {number} to be measured anew: {why}")
+        yield CountLine(f"{lab}: {number} to be measured anew: {why}")
     if found:
-        yield Tally("./roslings prove --record measures them, and writes their proofs.")
+        yield CountLine("./roslings prove --record measures them, and writes their proofs.")
 
 
 def recorded(
@@ -65,16 +65,16 @@ def recorded(
 ) -> Iterator[HasLine]:
     """Measure what is stale, or all that is due, and write it down."""
     proofs, before = _proofs(labs), kept_here().bytes
-    recorder = Recorder(proofs.folder, proofs.measuring)
+    recorder = ProofRecorder(proofs.folder, proofs.measuring)
     yield from recorder.forget_dead_kills(labs)
     recorder.judge_anew(labs)
     wanted = _due(proofs) if due else [each.package for each in proofs.stale()]
     yield from recorder.keep(measured(wanted, watcher, jobs))
     after = proofs.folder.bytes
-    yield Tally(f"{after - before:+,} bytes; {after:,} bytes are kept in all")
+    yield CountLine(f"{after - before:+,} bytes; {after:,} bytes are kept in all")
 
 
-class Answer(BaseModel):
+class DueOutcome(BaseModel):
     """One line of the file that `--told` names: a package that was due, and what came of it."""
 
     package: str
@@ -89,7 +89,7 @@ def due(
     """Measure all that is due, as the gate does, and write no proof.
 
     What no time was left for is wrong: what is due is never let through unmeasured.
-    `file` gets a line of JSON for each package, as `Answer` has it.
+    `file` gets a line of JSON for each package, as `DueOutcome` has it.
     """
     asked = _proofs(labs).due(newest_commit())
     found = {
@@ -103,35 +103,35 @@ def due(
     yield from _told_due(asked, found)
 
 
-def _answer(each: Due, found: Measured | None) -> Answer:
+def _answer(each: Due, found: MeasuredPackage | None) -> DueOutcome:
     name = each.package.name
     if found is None:
-        return Answer(package=name, why=each.why, outcome="unmeasured")
+        return DueOutcome(package=name, why=each.why, outcome="unmeasured")
     if found.proof.holds:
-        return Answer(package=name, why=each.why, outcome="passed")
+        return DueOutcome(package=name, why=each.why, outcome="passed")
     unclear = found.proof.is_open
-    return Answer(package=name, why=each.why, outcome="unclear" if unclear else "failed")
+    return DueOutcome(package=name, why=each.why, outcome="unclear" if unclear else "failed")
 
 
-def _proof_of(package: Package, found: dict[str, Measured]) -> Proof:
+def _proof_of(package: ProvenPackage, found: dict[str, MeasuredPackage]) -> Proof:
     if package.name in found:
         return found[package.name].proof
     problem = "it is due, and no time was left to measure it. ./roslings prove --record --due does"
     return Proof(package.about, problem, package=package.name)
 
 
-def _told_due(asked: Sequence[Due], found: dict[str, Measured]) -> Iterator[Tally]:
+def _told_due(asked: Sequence[Due], found: dict[str, MeasuredPackage]) -> Iterator[CountLine]:
     whose = Counter(each.why for each in asked)
     done = Counter(each.why for each in asked if each.package.name in found)
     for why, number in whose.items():
-        yield Tally(f"measured: {done[why]} of {number}, {why}")
+        yield CountLine(f"measured: {done[why]} of {number}, {why}")
 
 
-def _due(proofs: Proofs) -> list[Package]:
+def _due(proofs: Proofs) -> list[ProvenPackage]:
     return _packages(proofs.due(newest_commit()))
 
 
-def _packages(asked: Iterable[Due]) -> list[Package]:
+def _packages(asked: Iterable[Due]) -> list[ProvenPackage]:
     return [each.package for each in asked]
 
 

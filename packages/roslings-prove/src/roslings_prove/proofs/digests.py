@@ -19,7 +19,7 @@ from typing import Any
 from roslings.course import Lab, all_labs
 from roslings.course.files import read_tree
 from roslings.course.labs import engine_root
-from roslings.lab_folders import GRADERS
+from roslings.folders.lab_folders import GRADERS
 from roslings.workspace.normal import digest_of, digest_of_all, digest_of_file
 from roslings_launcher import built_interfaces
 from roslings_launcher.sources import source_folders
@@ -27,8 +27,8 @@ from roslings_prove.proofs.closure import (
     Code,
     Import,
     Modules,
+    ModuleTree,
     Told,
-    Tree,
     names_of,
     not_told,
     walk_at_run_time,
@@ -53,6 +53,12 @@ STARTED = {
         "ros2_on_pip.cli",
         "ros2_on_pip.commands.launch",
     ),
+    "roslings.capabilities.rooms.drivers": (
+        "ros2_on_pip.start",
+        "ros2_on_pip.cli",
+        "ros2_on_pip.commands.launch",
+    ),
+    "roslings.lockstep.beside": ("roslings.lockstep.program",),
     "graders.black_box.act": ("ros2_on_pip.stand_ins.rosbag2_py",),
 }
 """Module that starts a program to what the program is; no import leads there. A test holds this
@@ -60,7 +66,7 @@ against the files that a grading opens."""
 
 
 @dataclass(frozen=True)
-class Measuring:
+class MeasuringCode:
     """What measures the labs of a course."""
 
     modules: Modules
@@ -122,7 +128,7 @@ class Measuring:
     def _names_of_shared(self) -> Counter[str]:
         """How many of the shared modules are called so, or define such a name."""
         codes = map(self.modules.code, self.shared)
-        defined = (names_of(each) for code in codes for each in code.defining(""))
+        defined = (frozenset[str]().union(*map(names_of, code.defining(""))) for code in codes)
         return Counter(
             [
                 *(name for names in defined for name in names),
@@ -163,11 +169,11 @@ def _measuring_pins(lines: Iterable[str]) -> Iterator[str]:
             yield pin.strip()
 
 
-def measuring() -> Measuring:
+def measuring() -> MeasuringCode:
     """Of this course, as its files are now."""
     root = engine_root()
-    tree = Tree(tuple(source_folders(root)), root / GRADERS)
-    return Measuring(Modules(tree), tuple(all_labs()), root)
+    tree = ModuleTree(tuple(source_folders(root)), root / GRADERS)
+    return MeasuringCode(Modules(tree), tuple(all_labs()), root)
 
 
 def card_digest(lab: Lab) -> str:
@@ -186,7 +192,7 @@ def _measured_by(said: Any) -> Any:
 # --- the experiments of a grader ---------------------------------------------------------------
 
 
-def experiments_in(grader: Path, tree: Tree) -> Code:
+def experiments_in(grader: Path, tree: ModuleTree) -> Code:
     """The experiments that stand in a grader's file, and what of the file they use."""
     body = ast.parse(grader.read_bytes()).body
     defined = {name: statement for statement in body for name in names_of(statement)}

@@ -1,4 +1,4 @@
-"""Kept proofs: one line a package in `tests/proofs/LAB.jsonl`, its evidence packed beside it.
+"""Kept proofs: one line a package in `tests/proofs/LAB.jsonl`, its evidence packed in `LAB/`.
 
 A line says what the package was, what measured it, and what was judged from the evidence. It is
 believed only as far as it fits its files: whoever changes one of them changes the other.
@@ -6,7 +6,6 @@ believed only as far as it fits its files: whoever changes one of them changes t
 
 from __future__ import annotations
 
-import re
 import shutil
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -17,20 +16,17 @@ from typing import TypeVar
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 
 from roslings.course import Lab, root
-from roslings.evidence import Evidence
 from roslings.verdict import Verdict
-from roslings.workspace.normal import digest_of, digest_of_files
+from roslings.workspace.normal import digest_of_files
 from roslings.workspace.sources import files
-from roslings_class.grading import THOROUGHLY, packed
+from roslings_prove.proofs.archives import PART, Archives, replace_file
 from roslings_prove.proofs.kills import kept_packages
-from roslings_prove.prove import Package
+from roslings_prove.prove import ProvenPackage
 
 FOLDER = "tests/proofs"
 STATES = "measuring.jsonl"
-ENDING = ".evidence"
-LARGEST_BYTES = 1_000_000
 MOST_BYTES = 10_000_000
-"""Of one evidence, and of all that is kept."""
+"""Of all that is kept."""
 
 Line = TypeVar("Line", bound=BaseModel)
 
@@ -53,7 +49,7 @@ class KeptProof(BaseModel):
     core: str
     """Digests of what it was measured by."""
     evidence: str
-    """Digest of the packed evidence."""
+    """Digest of the evidence as its archive holds it: thin JSON."""
     checks: Words
 
 
@@ -73,12 +69,12 @@ def words_of(verdict: Verdict) -> Words:
     }
 
 
-def name_in(lab: Lab, package: Package) -> str:
+def name_in(lab: Lab, package: ProvenPackage) -> str:
     """What a line calls a package of its lab."""
     return package.name.removeprefix(f"{lab.name}: ")
 
 
-def content_of(package: Package) -> str:
+def content_of(package: ProvenPackage) -> str:
     """The digest of its files, as the evidence of it has them."""
     scratch = Path(tempfile.mkdtemp(prefix="roslings-"))
     try:
@@ -88,18 +84,13 @@ def content_of(package: Package) -> str:
         shutil.rmtree(scratch, ignore_errors=True)
 
 
-def pack(evidence: Evidence) -> bytes:
-    """As it is kept: small, for it is packed once and read at each landing."""
-    return packed(evidence, THOROUGHLY)
-
-
 @dataclass(frozen=True)
 class Folder:
     """Where proofs are kept."""
 
     path: Path
 
-    def packages(self, lab: Lab) -> list[Package]:
+    def packages(self, lab: Lab) -> list[ProvenPackage]:
         """All of a lab that has a line here: what proves the lab, and its known kills."""
         return kept_packages(lab, self.path)
 
@@ -113,21 +104,15 @@ class Folder:
         """The cores that measured, the oldest first."""
         return tuple(state.core for state in _read(self.path / STATES, State))
 
-    def evidence(self, lab: Lab, package: str) -> Path:
-        """The file with a package's evidence."""
-        return self.path / lab.name / f"{re.sub('[ :]', '-', package)}{ENDING}"
-
-    def files(self, lab: Lab) -> set[Path]:
-        """All evidence that lies there for a lab."""
-        return set((self.path / lab.name).glob(f"*{ENDING}"))
+    def archives(self, lab: Lab) -> Archives:
+        """The evidence of a lab's packages, as it is now."""
+        return Archives(self.path / lab.name)
 
     def write(self, lab: Lab, lines: Mapping[str, KeptProof], order: Sequence[str]) -> None:
         """The lines of a lab, in the order of its packages; evidence without a line goes."""
         kept = [lines[name] for name in order if name in lines]
         _write(self.path / f"{lab.name}.jsonl", kept)
-        wanted = {self.evidence(lab, line.package) for line in kept}
-        for file in self.files(lab) - wanted:
-            file.unlink()
+        self.archives(lab).keep_only([line.package for line in kept])
 
     def note_state(self, core: str) -> None:
         """The newest state of what measures comes last; one that is known already stays."""
@@ -137,17 +122,13 @@ class Folder:
     @property
     def bytes(self) -> int:
         """Of all that is kept."""
-        return sum(file.stat().st_size for file in self.path.rglob("*") if file.is_file())
+        found = (file for file in self.path.rglob("*") if file.suffix != PART and file.is_file())
+        return sum(file.stat().st_size for file in found)
 
 
 def kept_here() -> Folder:
     """The proofs of this course."""
     return Folder(root() / FOLDER)
-
-
-def digest_of_evidence(file: Path) -> str:
-    """What a line says of its evidence."""
-    return digest_of(file.read_bytes())
 
 
 def _read(file: Path, kind: type[Line]) -> Iterator[Line]:
@@ -156,6 +137,5 @@ def _read(file: Path, kind: type[Line]) -> Iterator[Line]:
 
 
 def _write(file: Path, lines: Iterable[BaseModel]) -> None:
-    file.parent.mkdir(parents=True, exist_ok=True)
     found = [TypeAdapter(type(line)).dump_json(line, exclude_none=True) for line in lines]
-    file.write_bytes(b"".join(line + b"\n" for line in found))
+    replace_file(file, b"".join(line + b"\n" for line in found))

@@ -13,10 +13,10 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict, RootModel
 
 from roslings.course import Lab
+from roslings.course.grader import Clock
 from roslings.course.mutants import Edit, Mutant
-from roslings.grader import Clock
-from roslings_class.result import Result
-from roslings_prove.prove import Package, failing, injured, packages_of
+from roslings_class.result import GradingResult
+from roslings_prove.prove import ProvenPackage, failing, injured, packages_of
 
 ENDING = ".kills.json"
 
@@ -70,7 +70,7 @@ class KnownKill:
         )
         return injured(self.lab, wrong, folder / self.name.replace("/", "-"))
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """That the check does not fail; others may fail beside it."""
         checks = result.verdict.checks if result.verdict else ()
         caught = any(each.id == self.kill.check and each.outcome == "fail" for each in checks)
@@ -90,7 +90,7 @@ def write_kills(folder: Path, lab: Lab, kills: Sequence[Kill]) -> None:
     file.write_text(f"{Kills(tuple(kills)).model_dump_json(indent=1)}\n", "utf-8")
 
 
-def kept_packages(lab: Lab, folder: Path) -> list[Package]:
+def kept_packages(lab: Lab, folder: Path) -> list[ProvenPackage]:
     """All of a lab that has a line: what proves the lab, and the known kills."""
     known: Iterable[Kill] = (each for each in kills_in(folder, lab) if each.applies(lab))
     return [*packages_of(lab), *(KnownKill(lab, each) for each in known)]

@@ -1,6 +1,6 @@
 """Measure packages for real; what shows what it must can be kept.
 
-A few are measured at a time, and what they showed is written before the next ones begin: who ends
+A few are measured at a time, and what they showed is written before the next ones begin. Who ends
 the command keeps what was done.
 """
 
@@ -10,32 +10,26 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from roslings.course import Lab
-from roslings.evidence import Evidence
+from roslings.evidence import Evidence, thin_json
 from roslings.experiment.run_folder import run_folder
 from roslings.judge import judge
+from roslings.workspace.normal import digest_of
 from roslings_class.gradebook import gradebook
 from roslings_class.grading import unpacked
 from roslings_class.scheduler import Watcher, always
 from roslings_prove.anonymous import for_judging, without_machine
-from roslings_prove.proofs.digests import Measuring, card_digest
-from roslings_prove.proofs.judging import words_now
-from roslings_prove.proofs.kept import (
-    LARGEST_BYTES,
-    Folder,
-    KeptProof,
-    digest_of_evidence,
-    name_in,
-    pack,
-    words_of,
-)
+from roslings_prove.proofs.archives import ArchiveTooLarge
+from roslings_prove.proofs.digests import MeasuringCode, card_digest
+from roslings_prove.proofs.judging import KeptEvidence, words_now
+from roslings_prove.proofs.kept import Folder, KeptProof, name_in, words_of
 from roslings_prove.proofs.kills import kills_in, write_kills
-from roslings_prove.prove import Package, Proof, graded, mixed, proof_of
+from roslings_prove.prove import Proof, ProvenPackage, graded, mixed, proof_of
 
 AT_A_TIME = 16
 
 
 @dataclass(frozen=True)
-class Tally:
+class CountLine:
     """Something counted."""
 
     text: str
@@ -50,21 +44,21 @@ BOOK = "book"
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasuredPackage:
     """A package that was graded for real, whether it shows what it must, and what was seen."""
 
-    package: Package
+    package: ProvenPackage
     proof: Proof
     evidence: Evidence | None
     """None where the package was refused before anything was run."""
 
 
 def measured(
-    packages: Iterable[Package],
+    packages: Iterable[ProvenPackage],
     watcher: Watcher,
     jobs: int | None = None,
     still: Callable[[], bool] = always,
-) -> Iterator[Measured]:
+) -> Iterator[MeasuredPackage]:
     """Grade packages; what is wrong beside others is tried once more, alone.
 
     Once `still()` is false no package is begun: those that are left are not among the results.
@@ -79,11 +73,11 @@ def measured(
 
 
 def _graded(
-    packages: Sequence[Package],
+    packages: Sequence[ProvenPackage],
     watcher: Watcher,
     jobs: int | None,
     still: Callable[[], bool],
-) -> Iterator[Measured]:
+) -> Iterator[MeasuredPackage]:
     if not packages:
         return
     with run_folder() as scratch:
@@ -95,46 +89,43 @@ def _graded(
                 if result := results.get(package.name):
                     content = book.evidence(result)
                     seen = unpacked(content) if content else None
-                    yield Measured(package, proof_of(package, result), seen)
+                    yield MeasuredPackage(package, proof_of(package, result), seen)
 
 
 @dataclass(frozen=True)
-class Recorder:
+class ProofRecorder:
     """Writes proofs into their folder, and the state of what measured them."""
 
     folder: Folder
-    measuring: Measuring
+    measuring: MeasuringCode
     _orders: dict[str, list[str]] = field(default_factory=dict)
 
-    def keep(self, found: Iterable[Measured]) -> Iterator[Proof]:
+    def keep(self, found: Iterable[MeasuredPackage]) -> Iterator[Proof]:
         """Write down what holds; of each package, whether it does."""
         for each in found:
             yield each.proof
             if each.proof.holds and each.evidence:
                 yield from self._put(each.package, each.evidence)
 
-    def _put(self, package: Package, evidence: Evidence) -> Iterator[Proof]:
+    def _put(self, package: ProvenPackage, evidence: Evidence) -> Iterator[Proof]:
         lab, kept = package.lab, for_judging(without_machine(evidence))
-        content = pack(kept)
-        if len(content) > LARGEST_BYTES:
-            problem = f"its evidence has {len(content):,} bytes; {LARGEST_BYTES:,} are the most"
-            yield Proof(package.about, problem)
-            return
-        name = name_in(lab, package)
-        file = self.folder.evidence(lab, name)
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_bytes(content)
-        self.folder.note_state(self.measuring.core)
+        name, content = name_in(lab, package), thin_json(kept)
         line = KeptProof(
             package=name,
             content=kept.package.content,
             card=card_digest(lab),
             experiments=self.measuring.experiments(lab),
             core=self.measuring.core,
-            evidence=digest_of_evidence(file),
+            evidence=digest_of(content),
             checks=words_of(judge(lab, kept)),
         )
-        self.write(lab, {**self.folder.lines(lab), name: line})
+        self.folder.note_state(self.measuring.core)
+        try:
+            self.folder.archives(lab).put(name, content)
+        except ArchiveTooLarge as error:
+            yield Proof(package.about, f"its evidence is not kept: {error}")
+        else:
+            self.write(lab, {**self.folder.lines(lab), name: line})
 
     def write(self, lab: Lab, lines: Mapping[str, KeptProof]) -> None:
         """The lines of a lab, in the order of its packages; what is gone from the lab goes."""
@@ -143,23 +134,27 @@ class Recorder:
         self.folder.write(lab, lines, self._orders[lab.name])
 
     def judge_anew(self, labs: Iterable[Lab]) -> None:
-        """Write what is judged today into lines whose evidence shows what it must."""
+        """Write what is judged today into lines whose evidence shows what it must.
+
+        A line whose evidence is not there goes: its package counts as never measured.
+        """
         for lab in labs:
-            lines = self.folder.lines(lab)
+            kept = KeptEvidence(lab, self.folder)
+            lines = {n: each for n, each in self.folder.lines(lab).items() if kept.has(each)}
             packages = {name_in(lab, each): each for each in self.folder.packages(lab)}
             for name in lines.keys() & packages.keys():
-                if now := words_now(packages[name], lines[name], self.folder):
+                if now := words_now(packages[name], lines[name], kept):
                     lines[name] = lines[name].model_copy(update={"checks": now})
             self.write(lab, lines)
 
-    def forget_dead_kills(self, labs: Iterable[Lab]) -> Iterator[Tally]:
+    def forget_dead_kills(self, labs: Iterable[Lab]) -> Iterator[CountLine]:
         """A kill is none once the solution has its line no longer."""
         for lab in labs:
             known = kills_in(self.folder.path, lab)
             alive = [each for each in known if each.applies(lab)]
             if dead := len(known) - len(alive):
                 write_kills(self.folder.path, lab, alive)
-                yield Tally(
+                yield CountLine(
                     f"{lab.name}: {dead} of its known kills fit the solution no longer, and go."
                     f" ./roslings prove {lab.name} --generated --keep-kills names others."
                 )

@@ -127,7 +127,16 @@ def _has_one_timer(one: cst.ClassDef) -> bool:
     (timer,) = _timers(begin)
     plain = len(timer.args) == 2 and own_attribute(timer.args[1].value) in own_names(one)
     taken = {"rate", "work"} & own_names(one)
-    return plain and not taken and not _uses_timer(one, begin)
+    if not plain or taken or _uses_timer(one, begin):
+        return False
+    return not _sets_a_future(one, own_attribute(timer.args[1].value))
+
+
+def _sets_a_future(one: cst.ClassDef, name: str) -> bool:
+    """Who sets it on another thread does not wake the executor: what awaits it goes on late."""
+    function = method(one, name)
+    calls = all_of(function, cst.Call) if function else []
+    return any(called(call) == "set_result" for call in calls)
 
 
 def _uses_timer(one: cst.ClassDef, begin: cst.FunctionDef) -> bool:

@@ -8,15 +8,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roslings.course import Lab
+from roslings.course.grader import Clock
 from roslings.experiment.run_folder import run_folder
-from roslings.grader import Clock
-from roslings_class.result import Result
+from roslings_class.result import GradingResult
 from roslings_class.scheduler import Watcher
 from roslings_class.version import version_of
 from roslings_prove.prove import Proof, Solution, graded, mixed, proof_of
 from roslings_prove.rewritten.keeping import kept_results
 from roslings_prove.rewritten.source import Sources
-from roslings_prove.rewritten.table import Made, made_from
+from roslings_prove.rewritten.table import RewrittenSources, made_from
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Rewritten:
 
     lab: Lab
     number: int
-    made: Made
+    made: RewrittenSources
     clock: Clock = "auto"
     course: None = None
 
@@ -63,7 +63,7 @@ class Rewritten:
             self.lab.solution, folder / self.name / self.lab.card.package
         )
 
-    def problem(self, result: Result) -> str:
+    def problem(self, result: GradingResult) -> str:
         """Where it loses points, and all that is not as in the solution."""
         problem = Solution(self.lab).problem(result)
         return f"{problem}\n{textwrap.indent(self._difference(), ' ' * 7)}" if problem else ""
@@ -94,7 +94,7 @@ def prove_rewritten(
 
 
 def _proofs(
-    lab: Lab, made: Sequence[Rewritten], results: Mapping[str, Result]
+    lab: Lab, made: Sequence[Rewritten], results: Mapping[str, GradingResult]
 ) -> Iterator[Proof | Score]:
     problem = "" if made else "no rewrite fits it, so nothing is shown"
     yield Proof(f"{lab.name}: the solution can be rewritten", problem)

@@ -1,6 +1,6 @@
 """Other names for classes, functions, variables and attributes; what ROS calls by name keeps its.
 
-A name is changed in the whole package or not at all: where one place that says it cannot be told
+A name is changed in the whole package or not at all. Where one place that says it cannot be told
 (`pose.position.x`, where a class has an `x` of its own), it stays.
 """
 

@@ -14,6 +14,7 @@ from roslings_prove.rewritten.callbacks import (
 )
 from roslings_prove.rewritten.composition import composition_for_inheritance
 from roslings_prove.rewritten.functions import extracted, inlined
+from roslings_prove.rewritten.goals import a_goal_that_sleeps
 from roslings_prove.rewritten.layout import (
     all_files_into_one,
     methods_in_another_order,
@@ -53,6 +54,7 @@ REWRITES: Mapping[str, Rewrite] = {
         read_live,
         noted_by_a_callback,
         a_rate_in_a_thread,
+        a_goal_that_sleeps,
         multi_threaded,
         a_loop_of_spin_once,
         a_with_block,
@@ -84,16 +86,16 @@ SEED = 19
 
 
 @dataclass(frozen=True)
-class Made:
+class RewrittenSources:
     """A right package, made from another one."""
 
     name: str
     sources: Sources
 
 
-def made_from(sources: Sources) -> list[Made]:
+def made_from(sources: Sources) -> list[RewrittenSources]:
     """One package for each rewrite that applies, and a few for several at once."""
-    single = {name: Made(name, new) for name, new in _applied(sources, list(REWRITES))}
+    single = {name: RewrittenSources(name, new) for name, new in _applied(sources, list(REWRITES))}
     return [*single.values(), *_combinations(sources, list(single))]
 
 
@@ -104,7 +106,7 @@ def _applied(sources: Sources, names: Sequence[str]) -> Iterator[tuple[str, Sour
             yield name, new
 
 
-def _combinations(sources: Sources, names: Sequence[str]) -> Iterator[Made]:
+def _combinations(sources: Sources, names: Sequence[str]) -> Iterator[RewrittenSources]:
     """Chosen by chance, and for one package always the same."""
     chance = random.Random(f"{SEED} {sources.card.package}")
     for _ in range(COMBINATIONS if len(names) > 1 else 0):
@@ -113,7 +115,7 @@ def _combinations(sources: Sources, names: Sequence[str]) -> Iterator[Made]:
         yield made
 
 
-def all_at_once(sources: Sources, names: Sequence[str]) -> Made:
+def all_at_once(sources: Sources, names: Sequence[str]) -> RewrittenSources:
     """One rewrite after the other; what no longer applies is left out."""
     done = []
     for name in names:
@@ -121,4 +123,4 @@ def all_at_once(sources: Sources, names: Sequence[str]) -> Made:
         if new != sources:
             done.append(name)
         sources = new
-    return Made(" + ".join(done), sources)
+    return RewrittenSources(" + ".join(done), sources)

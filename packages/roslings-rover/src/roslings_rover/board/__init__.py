@@ -11,7 +11,7 @@ from roslings_rover.board.spoil import Spoiler
 from roslings_rover.chip import Applied, Chip, Counts, Truth
 from roslings_rover.models.board_lines import (
     BadLine,
-    Drive,
+    DriveCommand,
     LineReader,
     Speeds,
     framed,
@@ -25,7 +25,7 @@ __all__ = [
     "Chip",
     "Chunk",
     "Counts",
-    "Drive",
+    "DriveCommand",
     "LineReader",
     "Mega",
     "Speeds",

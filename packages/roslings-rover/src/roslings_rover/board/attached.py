@@ -23,7 +23,7 @@ from roslings_rover.chip import (
     Truth,
 )
 from roslings_rover.errors import DeviceTrouble
-from roslings_rover.models.board_lines import BadLine, Drive, LineReader, Speeds
+from roslings_rover.models.board_lines import BadLine, DriveCommand, LineReader, Speeds
 from roslings_rover.models.differential_drive import moved
 from roslings_rover.rover import Body, Pose, Wheels
 
@@ -70,15 +70,15 @@ class BoardGone(DeviceTrouble):
 class AttachedBoard:
     """A board with the course's sketch, on a serial port of this computer.
 
-    What is true of it is known by its own lines alone: the wheels' speeds from its encoders, the
-    pose from these speeds, the PWM from the commands that it accepted. A context manager.
+    What is true of it is known by its own lines alone. The wheels' speeds come from its encoders,
+    the pose from these speeds, the PWM from the commands that it accepted. A context manager.
     Raises CannotOpen, SilentBoard at its begin, BoardGone later.
     """
 
     def __init__(self, port: Path, body: Body = Body()) -> None:  # noqa: B008 - cannot change
         self._name, self._body = port, body
         self._from_host, self._from_board = LineReader(), LineReader()
-        self._asked: dict[int, Drive] = {}
+        self._asked: dict[int, DriveCommand] = {}
         self._applied: list[Applied] = []
         self._pwm = (0, 0)
         self._now_s = self._accepted_s = 0.0
@@ -153,7 +153,7 @@ class AttachedBoard:
 
     def _note_command(self, body: str) -> None:
         try:
-            drive = Drive.read(body)
+            drive = DriveCommand.read(body)
         except BadLine:
             return  # the board refuses it too
         self._asked[drive.seq] = drive

@@ -9,13 +9,13 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from roslings_rover.asked import listening
 from roslings_rover.board.mega import Mega
 from roslings_rover.board.on_pty import Board
 from roslings_rover.board.wire import Wire
 from roslings_rover.chip import BAUD, Chip
 from roslings_rover.errors import DeviceTrouble
 from roslings_rover.rover import Rover
+from roslings_rover.stop_signal import listening
 from roslings_rover.usual_place import told_of, usual_place
 
 TELL_EVERY_S = 1.0
@@ -23,7 +23,7 @@ NAME = "ttyROVER"
 PARAMETER = "port"
 
 
-class PortTaken(DeviceTrouble):
+class BoardNameTaken(DeviceTrouble):
     """Another board runs under this name."""
 
     def __init__(self, name: Path) -> None:
@@ -49,7 +49,7 @@ def run(asked_for: Path | None, sketch: Path | None = None) -> None:
 
     With `sketch`, the real one, emulated.
 
-    Raises PortTaken, NoPlaceForPort, NoOwnPlace, CannotBuild.
+    Raises BoardNameTaken, NoPlaceForPort, NoOwnPlace, CannotBuild.
     """
     name = asked_for or usual_port()
     with ExitStack() as stack:
@@ -108,6 +108,6 @@ def _lock(name: Path, held: ExitStack) -> None:
         held.callback(os.close, lock)
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        raise PortTaken(name) from None
+        raise BoardNameTaken(name) from None
     except OSError as error:
         raise NoPlaceForPort(name, error.strerror or str(error)) from error

@@ -16,7 +16,7 @@ from roslings_rover.chip import (
 from roslings_rover.models.board_lines import (
     LARGEST_PWM,
     BadLine,
-    Drive,
+    DriveCommand,
     LineReader,
     Speeds,
     framed,
@@ -110,7 +110,7 @@ class Mega:
 
     def _follow(self, body: str) -> bytes:
         try:
-            drive = Drive.read(body)
+            drive = DriveCommand.read(body)
         except BadLine:
             self._misread += 1
             return b""

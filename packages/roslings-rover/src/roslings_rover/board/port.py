@@ -11,7 +11,7 @@ import tty
 from contextlib import suppress
 from pathlib import Path
 
-from roslings_rover.lent import lend
+from roslings_rover.device_access import lend
 
 MOST_AT_ONCE = 4096
 SPEEDS = {

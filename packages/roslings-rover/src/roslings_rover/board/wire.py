@@ -25,8 +25,9 @@ STRIDE = 7
 class Wire:
     """One direction of a cable. Without a speed, all arrives at once.
 
-    With `packet_s`, what came through arrives only so often, in packets that end within a line;
-    and only when the packet before has been read, so that also a host that is late reads halves.
+    With `packet_s`, what came through arrives only so often, in packets that end within a line. It
+    arrives only when the packet before has been read, so that also a host that is late reads
+    halves.
     """
 
     bits_s: float = math.inf

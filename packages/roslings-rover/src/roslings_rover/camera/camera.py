@@ -12,7 +12,7 @@ import numpy.typing as npt
 from roslings_rover.camera.frame import Encoding, Frame, Pixels, frame_of
 from roslings_rover.camera.scene import HUES, draw
 from roslings_rover.models.differential_drive import Pose
-from roslings_rover.models.pinhole import Disc, Eye
+from roslings_rover.models.pinhole import Disc, PinholeCameraModel
 from roslings_rover.models.world import World
 
 NEUTRAL_BRIGHTNESS = 50
@@ -41,7 +41,7 @@ class Light:
             raise ValueError(f"noise is 0 or more, not {self.noise}")
 
 
-class Standing(Protocol):
+class CameraMount(Protocol):
     """What a camera can be mounted on: a rover."""
 
     @property
@@ -60,26 +60,26 @@ class SyntheticCamera:
 
     def __init__(
         self,
-        eye: Eye = Eye(),  # noqa: B008 - cannot change
+        camera_model: PinholeCameraModel = PinholeCameraModel(),  # noqa: B008 - cannot change
         light: Light = Light(),
         encoding: Encoding = "rgb8",
         idle_bytes: int = 0,
         seed: int = 0,
     ) -> None:
-        self.eye, self.light = eye, light
+        self.camera_model, self.light = camera_model, light
         self.encoding, self.idle_bytes = encoding, idle_bytes
         self._chance = np.random.default_rng(seed)
         self._bank = self._chance.standard_normal(NOISE_BANK).astype(np.float32)
         self._grain: tuple[float, npt.NDArray[np.int16]] | None = None
 
-    def look(self, rover: Standing) -> Frame:
+    def look(self, rover: CameraMount) -> Frame:
         """What the rover sees now."""
-        return self.frame(self.eye.see(rover.world, rover.pose))
+        return self.frame(self.camera_model.see(rover.world, rover.pose))
 
     def frame(self, discs: Iterable[Disc]) -> Frame:
         """A picture of balls at chosen places."""
         shown = [self._coloured(disc) for disc in discs]
-        picture = self._lit(draw(shown, self.eye.width_px, self.eye.height_px))
+        picture = self._lit(draw(shown, self.camera_model.width_px, self.camera_model.height_px))
         return frame_of(picture, self.encoding, self.idle_bytes)
 
     def _coloured(self, disc: Disc) -> Disc:

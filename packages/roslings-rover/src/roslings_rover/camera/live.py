@@ -7,12 +7,12 @@ import socket
 import threading
 from pathlib import Path
 
-from roslings_rover.asked import listening
 from roslings_rover.camera.camera import Light, SyntheticCamera
 from roslings_rover.camera.frame import Frame
 from roslings_rover.camera.on_socket import SocketCamera
 from roslings_rover.errors import DeviceTrouble
-from roslings_rover.models.pinhole import Disc, Eye
+from roslings_rover.models.pinhole import Disc, PinholeCameraModel
+from roslings_rover.stop_signal import listening
 from roslings_rover.usual_place import told_of, usual_place
 
 TELL_EVERY_S = 1.0
@@ -50,12 +50,12 @@ def usual_path() -> Path:
     return usual_place(NAME, "--device")
 
 
-def ball_at(number: int, hue: int, eye: Eye) -> Disc:
+def ball_at(number: int, hue: int, camera_model: PinholeCameraModel) -> Disc:
     """Where the ball is in the n-th picture: it goes round, nearer and farther."""
     angle = 2 * math.pi * number / ROUND_PICTURES
     return Disc(
-        u_px=eye.width_px * (0.5 + 0.32 * math.cos(angle)),
-        v_px=eye.height_px * (0.55 + 0.25 * math.sin(2 * angle)),
+        u_px=camera_model.width_px * (0.5 + 0.32 * math.cos(angle)),
+        v_px=camera_model.height_px * (0.55 + 0.25 * math.sin(2 * angle)),
         radius_px=35 + 15 * math.sin(angle),
         hue=hue,
     )
@@ -71,7 +71,7 @@ def run(asked_for: Path | None, hue: int, noise: float) -> None:
         raise NoSuchLight(error) from error
 
     def film(number: int) -> Frame:
-        return camera.frame([ball_at(number, hue, camera.eye)])
+        return camera.frame([ball_at(number, hue, camera.camera_model)])
 
     with SocketCamera(path, film) as device, listening() as asked:
         try:
@@ -82,16 +82,18 @@ def run(asked_for: Path | None, hue: int, noise: float) -> None:
         if not asked_for and (words := told_of(path, NAME, PARAMETER)):
             print(words)
         print("It shows a ball that goes round. Ctrl-C ends it.", flush=True)
-        _tell(device, hue, camera.eye, asked)
+        _tell(device, hue, camera.camera_model, asked)
         print()
 
 
-def _tell(device: SocketCamera, hue: int, eye: Eye, asked: threading.Event) -> None:
+def _tell(
+    device: SocketCamera, hue: int, camera_model: PinholeCameraModel, asked: threading.Event
+) -> None:
     told = 0
     while not asked.wait(TELL_EVERY_S):
         if device.given != told:
             told = device.given
-            print(describe(told, ball_at(told - 1, hue, eye)), flush=True)
+            print(describe(told, ball_at(told - 1, hue, camera_model)), flush=True)
 
 
 def describe(pictures: int, ball: Disc) -> str:

@@ -17,7 +17,7 @@ from pathlib import Path
 from types import TracebackType
 
 from roslings_rover.camera.frame import Frame
-from roslings_rover.lent import lend
+from roslings_rover.device_access import lend
 
 Film = Callable[[int], Frame]
 """The n-th picture, from 0."""
@@ -40,10 +40,10 @@ class SocketCamera:
         self.given = 0
         """Pictures that were given so far."""
         self.late_ns = 0
-        """For so long, all pictures together, whoever asked waited for more than the camera's pace:
-        a picture goes in pieces, and each waits for this thread to be run."""
+        """For so long, all pictures together, whoever asked waited for more than the camera's pace.
+        A picture goes in pieces, and each waits for this thread to be run."""
         self._film = film
-        self._ear: socket.socket | None = None
+        self._listener: socket.socket | None = None
         self._answering: threading.Thread | None = None
         self._serving: list[threading.Thread] = []
         self._user: socket.socket | None = None
@@ -62,37 +62,37 @@ class SocketCamera:
     @property
     def there(self) -> bool:
         """It is plugged in."""
-        return self._ear is not None
+        return self._listener is not None
 
     def plug_in(self) -> None:
         """The camera is there, for all who know its path. Raises OSError."""
-        ear = socket.socket(socket.AF_UNIX)
-        ear.settimeout(LOOK_EVERY_S)
+        listener = socket.socket(socket.AF_UNIX)
+        listener.settimeout(LOOK_EVERY_S)
         self.path.unlink(missing_ok=True)
-        ear.bind(str(self.path))
+        listener.bind(str(self.path))
         lend(self.path, self.path.parent)
-        ear.listen()
-        self._ear = ear
-        self._answering = _started(self._answer, ear)
+        listener.listen()
+        self._listener = listener
+        self._answering = _started(self._answer, listener)
 
     def unplug(self) -> None:
         """The camera is gone, for its user too."""
-        ear, self._ear = self._ear, None
-        if ear and self._answering:
+        listener, self._listener = self._listener, None
+        if listener and self._answering:
             self.path.unlink(missing_ok=True)
-            _shut(ear)
+            _shut(listener)
             self._answering.join()  # first: it starts the others
         if user := self._user:
             _shut(user)
         while self._serving:
             self._serving.pop().join()
 
-    def _answer(self, ear: socket.socket) -> None:
+    def _answer(self, listener: socket.socket) -> None:
         """Greet whoever comes, until the camera is unplugged."""
-        with ear:
-            while self._ear is ear:
+        with listener:
+            while self._listener is listener:
                 with suppress(OSError):  # nobody came, or went at once
-                    caller, _ = ear.accept()
+                    caller, _ = listener.accept()
                     self._greet(caller)
 
     def _greet(self, caller: socket.socket) -> None:
@@ -109,7 +109,7 @@ class SocketCamera:
         next_s = time.monotonic()
         with user, suppress(OSError):
             user.settimeout(None)
-            while user.recv(1) and self._ear:
+            while user.recv(1) and self._listener:
                 due_s = max(next_s, time.monotonic())
                 picture = self._film(self.given).pixels().tobytes()
                 time.sleep(max(0.0, next_s - time.monotonic()))

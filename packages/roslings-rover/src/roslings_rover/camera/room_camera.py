@@ -1,7 +1,7 @@
 """The camera in a room: it draws the walls and what stands and moves before it, and the balls.
 
-One ray a column (as in Wolfenstein 3D, 1992): all but the walls is equally high, and higher than
-the camera, so in each column the nearest thing hides the others.
+There is one ray a column (as in Wolfenstein 3D, 1992). All but the walls is equally high, and
+higher than the camera. So in each column the nearest thing hides the others.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from roslings_rover.camera.camera import Standing, SyntheticCamera
+from roslings_rover.camera.camera import CameraMount, SyntheticCamera
 from roslings_rover.camera.frame import Frame, Pixels, frame_of
 from roslings_rover.camera.scene import WALL_RGB, background, draw
 from roslings_rover.models.differential_drive import Pose
-from roslings_rover.models.pinhole import Disc, Eye
+from roslings_rover.models.pinhole import Disc, PinholeCameraModel
 from roslings_rover.models.rooms import moving_in
 from roslings_rover.models.shape_arrays import (
     Hits,
@@ -58,26 +58,26 @@ Packed = npt.NDArray[np.uint32]
 class RoomCamera(SyntheticCamera):
     """Draws what stands in the room, too."""
 
-    def look(self, rover: Standing) -> Frame:
+    def look(self, rover: CameraMount) -> Frame:
         """What the rover sees now."""
-        discs = [self._coloured(disc) for disc in self.eye.see(rover.world, rover.pose)]
-        picture = drawn(self.eye, rover.world, rover.pose)
+        discs = [self._coloured(disc) for disc in self.camera_model.see(rover.world, rover.pose)]
+        picture = drawn(self.camera_model, rover.world, rover.pose)
         if discs:
             _put_balls(picture, discs)
         return frame_of(self._lit(picture), self.encoding, self.idle_bytes)
 
 
-def drawn(eye: Eye, world: World, pose: Pose) -> Pixels:
+def drawn(camera_model: PinholeCameraModel, world: World, pose: Pose) -> Pixels:
     """The room before the camera, without balls: rows, columns and (red, green, blue)."""
-    here = eye.place(pose)
-    off_px = (eye.width_px - 1) / 2 - np.arange(eye.width_px)
-    off_rad = np.arctan2(off_px, eye.focal_px)
+    here = camera_model.place(pose)
+    off_px = (camera_model.width_px - 1) / 2 - np.arange(camera_model.width_px)
+    off_rad = np.arctan2(off_px, camera_model.focal_px)
     rays = Rays.towards(here.x_m, here.y_m, here.heading_rad + off_rad)
     along = np.cos(off_rad)
-    packed = _background(eye.width_px, eye.height_px).copy()
-    _put(packed, eye, _columns(wall_hits(world.room, rays), along, WALL_RGB), np.inf)
+    packed = _background(camera_model.width_px, camera_model.height_px).copy()
+    _put(packed, camera_model, _columns(wall_hits(world.room, rays), along, WALL_RGB), np.inf)
     things = _nearest([_columns(hits, along, rgb) for hits, rgb in _things(world, rays)])
-    _put(packed, eye, things, THING_HIGH_M)
+    _put(packed, camera_model, things, THING_HIGH_M)
     four: Pixels = packed.view(np.uint8).reshape(*packed.shape, 4)
     return np.ascontiguousarray(four[:, :, :3])
 
@@ -116,13 +116,19 @@ def _nearest(found: list[Columns]) -> Columns:
     return Columns(depths[first, each], np.array([one.rgb for one in found])[first, each])
 
 
-def _put(picture: Packed, eye: Eye, columns: Columns, high_m: float) -> None:
+def _put(
+    picture: Packed, camera_model: PinholeCameraModel, columns: Columns, high_m: float
+) -> None:
     """Fill each column from the upper edge of what it shows to where that stands on the floor."""
-    rows = np.arange(eye.height_px)[:, None]
-    below_px = eye.focal_px * eye.height_m / columns.depth_m
-    above_px = eye.focal_px * (high_m - eye.height_m) / columns.depth_m
+    rows = np.arange(camera_model.height_px)[:, None]
+    below_px = camera_model.focal_px * camera_model.height_m / columns.depth_m
+    above_px = camera_model.focal_px * (high_m - camera_model.height_m) / columns.depth_m
     there = np.isfinite(columns.depth_m)
-    filled = (rows <= eye.horizon_px + below_px) & (rows >= eye.horizon_px - above_px) & there
+    filled = (
+        (rows <= camera_model.horizon_px + below_px)
+        & (rows >= camera_model.horizon_px - above_px)
+        & there
+    )
     np.copyto(picture, _packed(columns.rgb), where=filled)
 
 

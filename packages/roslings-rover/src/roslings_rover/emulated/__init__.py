@@ -4,12 +4,12 @@ The sketch holds no simulation: what is compiled here also runs on a real Arduin
 `APT_LINE`; `missing()` says what is not there.
 """
 
-from roslings_rover.emulated.build import APT_LINE, Built, CannotBuild, built, missing
+from roslings_rover.emulated.build import APT_LINE, BuiltSketch, CannotBuild, built, missing
 from roslings_rover.emulated.chip import EmulatedMega, EmulatorEnded
 
 __all__ = [
     "APT_LINE",
-    "Built",
+    "BuiltSketch",
     "CannotBuild",
     "EmulatedMega",
     "EmulatorEnded",

@@ -35,7 +35,7 @@ class CannotBuild(DeviceTrouble):
 
 
 @dataclass(frozen=True)
-class Built:
+class BuiltSketch:
     """A sketch for the ATmega2560, and the program that runs it."""
 
     sketch: Path
@@ -50,14 +50,14 @@ def missing() -> list[str]:
     return [*programs, *folders, *headers]
 
 
-def built(sketch: Path) -> Built:
+def built(sketch: Path) -> BuiltSketch:
     """Build `sketch` (a .ino), or find what was built of it before. Raises CannotBuild."""
     if not sketch.is_file():
         raise CannotBuild(f"There is no sketch {sketch}. Give the path of an .ino file.")
     if lacking := missing():
         raise CannotBuild(f"The emulated board needs {', '.join(lacking)}. Type: {APT_LINE}")
     folder = _cache() / _fingerprint(sketch)
-    done = Built(folder / "sketch.elf", folder / "runner")
+    done = BuiltSketch(folder / "sketch.elf", folder / "runner")
     if not (done.sketch.is_file() and done.runner.is_file()):
         _build(sketch, folder)
     return done

@@ -8,7 +8,7 @@ from types import TracebackType
 from typing import IO
 
 from roslings_rover.chip import TICKS_PER_TURN, Applied, Truth
-from roslings_rover.emulated.build import Built
+from roslings_rover.emulated.build import BuiltSketch
 from roslings_rover.errors import DeviceTrouble
 from roslings_rover.models.differential_drive import moved
 from roslings_rover.rover import Body, Pose, Wheels
@@ -33,7 +33,7 @@ class EmulatedMega:
     A context manager, which starts and ends the process. Raises EmulatorEnded where it is gone.
     """
 
-    def __init__(self, built: Built, body: Body = Body()) -> None:  # noqa: B008 - cannot change
+    def __init__(self, built: BuiltSketch, body: Body = Body()) -> None:  # noqa: B008 - cannot change
         self._built, self._body = built, body
         self._pose = Pose()
         self._angles = (0.0, 0.0)

@@ -18,6 +18,7 @@ from __future__ import annotations
 import binascii
 import re
 from dataclasses import dataclass, field
+from typing import Literal
 
 LONGEST_LINE = 60
 """Characters between `$` and the end of the line; a longer line is rejected."""
@@ -29,8 +30,17 @@ _DRIVE = re.compile(r"M,(\d{1,5}),(-?\d{1,3}),(-?\d{1,3})", re.ASCII)
 _SPEEDS = re.compile(r"W,(\d+),(\d+),(-?\d+),(-?\d+)", re.ASCII)
 
 
+Badness = Literal["no_line", "checksum", "no_command", "too_large", "no_speeds"]
+"""Why a line must not be used."""
+
+
 class BadLine(Exception):
     """A line that must not be used: half, spoiled, or not of this protocol."""
+
+    def __init__(self, kind: Badness, told: str) -> None:
+        """`told` is for people."""
+        self.kind = kind
+        super().__init__(told)
 
 
 def checksum(body: bytes) -> int:
@@ -48,15 +58,16 @@ def unframed(line: bytes) -> str:
     """The body of a line without its `$` and its end. Raises BadLine."""
     match = _LINE.fullmatch(line)
     if match is None:
-        raise BadLine(f"this is no line: {line!r}")
+        raise BadLine("no_line", f"this is no line: {line!r}")
     body, crc = match.groups()
     if checksum(body) != int(crc, 16):
-        raise BadLine(f"the checksum should be {checksum(body):04X}: {line!r}")
+        told = f"the checksum should be {checksum(body):04X}: {line!r}"
+        raise BadLine("checksum", told)
     return body.decode("ascii")
 
 
 @dataclass(frozen=True)
-class Drive:
+class DriveCommand:
     """A command: PWM for each motor, negative for backward."""
 
     seq: int
@@ -68,14 +79,14 @@ class Drive:
         return framed(f"M,{self.seq},{self.left_pwm},{self.right_pwm}")
 
     @staticmethod
-    def read(body: str) -> Drive:
+    def read(body: str) -> DriveCommand:
         """Raises BadLine for another kind of line, and for a PWM that no motor has."""
         match = _DRIVE.fullmatch(body)
         if match is None:
-            raise BadLine(f"this is no command: {body!r}")
-        drive = Drive(*map(int, match.groups()))
+            raise BadLine("no_command", f"this is no command: {body!r}")
+        drive = DriveCommand(*map(int, match.groups()))
         if max(abs(drive.left_pwm), abs(drive.right_pwm)) > LARGEST_PWM or drive.seq > LARGEST_SEQ:
-            raise BadLine(f"a number is too large: {body!r}")
+            raise BadLine("too_large", f"a number is too large: {body!r}")
         return drive
 
 
@@ -97,7 +108,7 @@ class Speeds:
         """Raises BadLine for another kind of line."""
         match = _SPEEDS.fullmatch(body)
         if match is None:
-            raise BadLine(f"these are no speeds: {body!r}")
+            raise BadLine("no_speeds", f"these are no speeds: {body!r}")
         return Speeds(*map(int, match.groups()))
 
 
@@ -105,7 +116,7 @@ class Speeds:
 class LineReader:
     """Finds whole lines in bytes that come in pieces of any size.
 
-    A `$` always begins a new line, so that what follows a half line is not lost with it; bytes
+    A `$` always begins a new line, so that what follows a half line is not lost with it. Bytes
     outside of a line are passed over.
     """
 

@@ -68,7 +68,7 @@ class Body:
     def wheels_for(self, motion: Motion) -> Wheels:
         """Wheel speeds for a motion, both slowed alike where one would be too fast.
 
-        left = (v - w L / 2) / r and right = (v + w L / 2) / r, with the speed v forward, the
+        `left = (v - w L / 2) / r` and `right = (v + w L / 2) / r`, with the speed v forward, the
         turn w, the separation L and the wheel radius r.
         """
         half_m = self.wheel_separation_m / 2

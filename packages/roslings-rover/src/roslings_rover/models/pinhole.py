@@ -24,7 +24,7 @@ class Disc:
 
 
 @dataclass(frozen=True)
-class Eye:
+class PinholeCameraModel:
     """The rover's camera. Its field of view is that of the Raspberry Pi camera module 2."""
 
     width_px: int = 640

@@ -1,8 +1,8 @@
 """Rays against many shapes at once, by numpy: what `World.distance` says of one ray, of all.
 
-Each axis has arrays of its own, for shapes times rays: a box is hit where a ray is between west and
-east and between south and north at once (the slab method: T. Kay and J. Kajiya, "Ray Tracing
-Complex Scenes", SIGGRAPH 1986).
+Each axis has arrays of its own, for shapes times rays. A box is hit where a ray is between west and
+east and between south and north at once. Source: the slab method, T. Kay and J. Kajiya, "Ray
+Tracing Complex Scenes", SIGGRAPH 1986.
 """
 
 from __future__ import annotations

@@ -6,10 +6,10 @@ forward (or east), y left (or north), angles grow counter-clockwise (REP 103).
 """
 
 from roslings_rover.models.differential_drive import Body, Motion, Pose, Wheels
-from roslings_rover.models.pinhole import Disc, Eye
+from roslings_rover.models.pinhole import Disc, PinholeCameraModel
 from roslings_rover.models.world import Ball, Box, Circle, World, default_world
 from roslings_rover.rover.rover import Rover
-from roslings_rover.rover.sensors import RangeSensor, Reading, Scanner
+from roslings_rover.rover.sensors import DistanceReading, RangeSensor, Scanner
 
 __all__ = [
     "Ball",
@@ -17,11 +17,11 @@ __all__ = [
     "Box",
     "Circle",
     "Disc",
-    "Eye",
+    "DistanceReading",
     "Motion",
+    "PinholeCameraModel",
     "Pose",
     "RangeSensor",
-    "Reading",
     "Rover",
     "Scanner",
     "Wheels",

@@ -11,9 +11,9 @@ from typing import Any
 
 from ros2_on_pip.rosbag2.metadata import Topic
 from ros2_on_pip.rosbag2.quality import kept
-from ros2_on_pip.rosbag2.writing import BagWriter, Plan
-from roslings_rover.models.drives.recording import NS, Said
-from roslings_rover.models.drives.unknown import Drive, Held
+from ros2_on_pip.rosbag2.writing import BagWriter, BagWriterOptions
+from roslings_rover.models.drives.recording import NS, RecordedMessage
+from roslings_rover.models.drives.unknown import Held, RecordedDrive
 
 DEPTH = 10
 STRANGE = bytes(24)
@@ -21,12 +21,12 @@ STRANGE = bytes(24)
 
 
 def write_drive(
-    drive: Drive, folder: Path, storage: str = "mcap", split_after_s: float = 0.0
+    drive: RecordedDrive, folder: Path, storage: str = "mcap", split_after_s: float = 0.0
 ) -> None:
     """Make the folder, and the bag in it. Raises BagError."""
     from rclpy.serialization import serialize_message
 
-    bag = BagWriter(folder, Plan(storage=storage, max_duration_s=split_after_s))
+    bag = BagWriter(folder, BagWriterOptions(storage=storage, max_duration_s=split_after_s))
     try:
         types = {topic.name: topic.type for topic in drive.topics}
         for topic in drive.topics:
@@ -49,7 +49,7 @@ def _profile(topic: Held) -> Any:
     )
 
 
-def message_of(type_: str, said: Said) -> Any:
+def message_of(type_: str, said: RecordedMessage) -> Any:
     """The message of ROS; None for a type that is not installed."""
     fill = _FILLS.get(type_)
     if fill is None:

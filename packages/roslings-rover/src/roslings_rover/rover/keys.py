@@ -20,14 +20,14 @@ class NoTerminal(DeviceTrouble):
         super().__init__(f"--keys: {error}")
 
 
-class Driver:
+class KeyboardDriver:
     """Says on /cmd_vel what was pressed."""
 
     def __init__(self, node: Any, keys: Keys) -> None:
         from geometry_msgs.msg import Twist
 
         self._make, self._keys, self._hands = Twist, keys, Hands()
-        self._voice = node.create_publisher(Twist, "cmd_vel", 10)
+        self._publisher = node.create_publisher(Twist, "cmd_vel", 10)
 
     def look(self) -> None:
         """Follow the key that was pressed since the last look."""
@@ -42,7 +42,7 @@ class Driver:
     def _say(self, steering: Steering) -> None:
         twist = self._make()
         twist.linear.x, twist.angular.z = steering.forward_m_s, steering.turn_rad_s
-        self._voice.publish(twist)
+        self._publisher.publish(twist)
 
 
 @contextmanager
@@ -53,7 +53,7 @@ def driving(wanted: bool) -> Iterator[Callable[[], None]]:
         return
     try:
         with keys_of() as keys, keyboard_node() as node:
-            yield Driver(node, keys).look
+            yield KeyboardDriver(node, keys).look
     except NoKeys as error:
         raise NoTerminal(error) from error
 

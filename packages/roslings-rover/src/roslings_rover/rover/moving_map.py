@@ -1,6 +1,6 @@
 """The rover's map as one SVG in which it drives its way again; no script, and nothing to load.
 
-It moves for at most five seconds and then stands where the rover is: what moves for longer must
+It moves for at most five seconds and then stands where the rover is. What moves for longer must
 have a button that stops it (WCAG 2.2, success criterion 2.2.2). A page that shows it as an `img`
 offers the one that stands to whoever asks for less motion: browsers do not tell a picture.
 """
@@ -16,7 +16,7 @@ from itertools import accumulate, pairwise
 from roslings_rover.models.rooms import moving_in
 from roslings_rover.models.world import Ball, Box, Circle, World
 from roslings_rover.rover.picture import MOVING, OBSTACLE, PATH, ROVER, WALL
-from roslings_rover.rover.rover import Moment
+from roslings_rover.rover.rover import RoverMoment
 
 PX_PER_M = 50.0
 MARGIN_M = 0.3
@@ -69,7 +69,7 @@ class _Sheet:
 def place_under(world: World, right: float, down: float) -> tuple[float, float]:
     """Where in the room a point of the map lies, in metres (x, y).
 
-    `right` and `down` are parts of the picture's width and height, from 0 to 1, so they hold at
+    `right` and `down` are parts of the picture's width and height, from 0 to 1. So they hold at
     each size that it is shown in.
     """
     return _Sheet(world.room).under(right, down)
@@ -77,7 +77,7 @@ def place_under(world: World, right: float, down: float) -> tuple[float, float]:
 
 def moving_map(
     world: World,
-    trail: Sequence[Moment],
+    trail: Sequence[RoverMoment],
     radius_m: float,
     *,
     dots: bool = False,
@@ -161,7 +161,7 @@ def _colour(ball: Ball) -> str:
     return f"#{round(red * 255):02x}{round(green * 255):02x}{round(blue * 255):02x}"
 
 
-def _way(sheet: _Sheet, trail: Sequence[Moment], dots: bool) -> Iterator[str]:
+def _way(sheet: _Sheet, trail: Sequence[RoverMoment], dots: bool) -> Iterator[str]:
     places = [sheet.at(each.pose.x_m, each.pose.y_m) for each in trail]
     line = " ".join(f"{x:g},{y:g}" for x, y in places)
     yield f'<polyline class="way" pathLength="1" points="{line}"/>'
@@ -171,7 +171,7 @@ def _way(sheet: _Sheet, trail: Sequence[Moment], dots: bool) -> Iterator[str]:
         yield f'<circle class="place" cx="{places[0][0]}" cy="{places[0][1]}" r="5"/>'
 
 
-def _rover(sheet: _Sheet, last: Moment, radius_m: float) -> str:
+def _rover(sheet: _Sheet, last: RoverMoment, radius_m: float) -> str:
     (x, y), radius = sheet.at(last.pose.x_m, last.pose.y_m), radius_m * PX_PER_M
     turn = -math.degrees(last.pose.heading_rad)
     return (
@@ -202,12 +202,12 @@ class _Frame:
 
     time: float
     way: float
-    moment: Moment
+    moment: RoverMoment
     heading_rad: float
     """Without the jump from pi to -pi, which would turn the rover once around."""
 
 
-def _motion(sheet: _Sheet, trail: Sequence[Moment]) -> str:
+def _motion(sheet: _Sheet, trail: Sequence[RoverMoment]) -> str:
     """The animation's rules; none where nothing moved."""
     frames = _frames(trail)
     if not frames:
@@ -228,16 +228,16 @@ def _placed(sheet: _Sheet, frame: _Frame) -> str:
     return f"translate({x:g}px,{y:g}px) rotate({-math.degrees(frame.heading_rad):.1f}deg)"
 
 
-def shown_s(trail: Sequence[Moment]) -> float:
+def shown_s(trail: Sequence[RoverMoment]) -> float:
     """How long the picture moves: as long as the rover did, without its rests; at most 5 s."""
     return min(LONGEST_S, sum(_steps_s(trail)))
 
 
-def _steps_s(trail: Sequence[Moment]) -> list[float]:
+def _steps_s(trail: Sequence[RoverMoment]) -> list[float]:
     return [min(b.time_s - a.time_s, LONGEST_REST_S) for a, b in pairwise(trail)]
 
 
-def _frames(trail: Sequence[Moment]) -> list[_Frame]:
+def _frames(trail: Sequence[RoverMoment]) -> list[_Frame]:
     if len({each.pose for each in trail}) < 2:
         return []
     times_s = [0.0, *accumulate(_steps_s(trail))]
@@ -252,7 +252,7 @@ def _frames(trail: Sequence[Moment]) -> list[_Frame]:
     ]
 
 
-def _far_m(one: Moment, two: Moment) -> float:
+def _far_m(one: RoverMoment, two: RoverMoment) -> float:
     return math.hypot(two.pose.x_m - one.pose.x_m, two.pose.y_m - one.pose.y_m)
 
 

@@ -14,8 +14,8 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from roslings_rover.models.differential_drive import Motion
-from roslings_rover.rover.ears import Ears, Sentence, hearing
 from roslings_rover.rover.rover import Rover
+from roslings_rover.rover.subscriptions import HeardSentence, RoverSubscriptions, subscribing
 
 if TYPE_CHECKING:
     from roslings_rover.camera import Frame
@@ -56,7 +56,7 @@ class RoverNode:
     listens: bool = False
     """It hears what others say, too."""
     _told_s: float = field(default=-math.inf, repr=False)
-    _ears: Ears | None = field(default=None, repr=False)
+    _subscriptions: RoverSubscriptions | None = field(default=None, repr=False)
     _parts: ExitStack = field(default_factory=ExitStack, repr=False)
 
     def __enter__(self) -> RoverNode:
@@ -74,8 +74,8 @@ class RoverNode:
         self._open_topics()
         self._open_timers()
         if self.listens:
-            ears = hearing(self._context, self._executor, self.rover)
-            self._ears = self._parts.enter_context(ears)
+            subscriptions = subscribing(self._context, self._executor, self.rover)
+            self._subscriptions = self._parts.enter_context(subscriptions)
         self._stepped_s = time.monotonic()
         return self
 
@@ -91,9 +91,9 @@ class RoverNode:
         self._context.try_shutdown()
 
     @property
-    def sentence(self) -> Sentence | None:
+    def sentence(self) -> HeardSentence | None:
         """What it hears somebody say; None where nobody says something, or it does not listen."""
-        return self._ears.sentence if self._ears else None
+        return self._subscriptions.sentence if self._subscriptions else None
 
     def turn(self, within_s: float = 0.02) -> None:
         """Do the next thing that is due, or wait for it as long as this."""
@@ -108,11 +108,11 @@ class RoverNode:
         from roslings_rover.camera import SyntheticCamera
 
         node = self._node
-        self._ear = node.create_subscription(Twist, "cmd_vel", self._hear, 10)
+        self._subscription = node.create_subscription(Twist, "cmd_vel", self._hear, 10)
         self._odom = node.create_publisher(Odometry, "odom", 10)
         self._scan = node.create_publisher(LaserScan, "scan", qos_profile_sensor_data)
         self._pictures = node.create_publisher(Image, "camera/image_raw", qos_profile_sensor_data)
-        self._camera = SyntheticCamera(self.rover.eye)
+        self._camera = SyntheticCamera(self.rover.camera_model)
         self._tf = _tf_publisher(node) if self.tf else None
         self.publishes_tf = self._tf is not None
 
@@ -151,7 +151,7 @@ class RoverNode:
             self._tf.publish(_transforms(self.rover, stamp))
 
     def _tell_distances(self) -> None:
-        self._scan.publish(_laser_scan(self.rover, self._node.get_clock().now().to_msg()))
+        self._scan.publish(laser_scan(self.rover, self._node.get_clock().now().to_msg()))
 
     def _show_picture(self) -> None:
         if self._pictures.get_subscription_count():
@@ -205,7 +205,8 @@ def _turn(quaternion: Any, angle_rad: float) -> None:
     quaternion.z, quaternion.w = math.sin(angle_rad / 2), math.cos(angle_rad / 2)
 
 
-def _laser_scan(rover: Rover, stamp: Any) -> Any:
+def laser_scan(rover: Rover, stamp: Any) -> Any:
+    """A sensor_msgs/msg/LaserScan of what the scanner reads: a turn of it, in metres."""
     from sensor_msgs.msg import LaserScan
 
     scanner = rover.scanner
@@ -216,7 +217,7 @@ def _laser_scan(rover: Rover, stamp: Any) -> Any:
         scan_time=1 / scanner.turns_hz,
         range_min=scanner.nearest_m,
         range_max=scanner.farthest_m,
-        ranges=rover.scan(),
+        ranges=array.array("f", rover.scan()),  # it is sent in a fifth of a list's time
     )
     scan.header.stamp, scan.header.frame_id = stamp, BODY_FRAME
     return scan

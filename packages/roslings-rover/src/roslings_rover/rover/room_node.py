@@ -60,7 +60,7 @@ class RoomNode(DrivenRover):
         from visualization_msgs.msg import MarkerArray
 
         node = self._node
-        self._camera = RoomCamera(self.rover.eye)
+        self._camera = RoomCamera(self.rover.camera_model)
         kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._room = node.create_publisher(MarkerArray, ROOM.lstrip("/"), kept)
         self._moving = node.create_publisher(MarkerArray, MOVING.lstrip("/"), 10)

@@ -7,9 +7,9 @@ import random
 from dataclasses import dataclass, replace
 
 from roslings_rover.models.differential_drive import Body, Motion, Pose, Wheels, moved
-from roslings_rover.models.pinhole import Disc, Eye
+from roslings_rover.models.pinhole import Disc, PinholeCameraModel
 from roslings_rover.models.world import Ball, World, default_world
-from roslings_rover.rover.sensors import RangeSensor, Reading, Scanner
+from roslings_rover.rover.sensors import DistanceReading, RangeSensor, Scanner
 
 LONGEST_STEP_S = 0.005
 """A longer step is cut up: the motors' lag and the arc are then exact enough to compare."""
@@ -23,7 +23,7 @@ TURN_STEP_RAD = math.radians(10)
 
 
 @dataclass(frozen=True)
-class Moment:
+class RoverMoment:
     """Where the rover was at a time of its own clock."""
 
     time_s: float
@@ -56,9 +56,13 @@ class Rover:
         """Its rim is against something, and it was told to go on."""
         self.path: list[Pose] = [pose]
         """A place for every 2 cm of its way."""
-        self.trail: list[Moment] = [Moment(0.0, pose)]
+        self.trail: list[RoverMoment] = [RoverMoment(0.0, pose)]
         """A moment for every 2 cm and for every turn of 10 degrees."""
-        self.range_sensor, self.scanner, self.eye = RangeSensor(), Scanner(), Eye()
+        self.range_sensor, self.scanner, self.camera_model = (
+            RangeSensor(),
+            Scanner(),
+            PinholeCameraModel(),
+        )
         self._chance = random.Random(seed)
 
     def drive(self, motion: Motion) -> None:
@@ -150,9 +154,9 @@ class Rover:
         turned_rad = abs(math.remainder(self.pose.heading_rad - last.heading_rad, math.tau))
         moved_on = went_m >= PATH_STEP_M or turned_rad >= TURN_STEP_RAD
         if moved_on and len(self.trail) < PATH_POINTS:
-            self.trail.append(Moment(self.time_s, self.pose))
+            self.trail.append(RoverMoment(self.time_s, self.pose))
 
-    def range(self) -> Reading:
+    def range(self) -> DistanceReading:
         """One reading of the ultrasonic sensor."""
         return self.range_sensor.read(self.world, self.pose, self._chance)
 
@@ -162,4 +166,4 @@ class Rover:
 
     def see(self) -> list[Disc]:
         """The balls that the camera sees."""
-        return self.eye.see(self.world, self.pose)
+        return self.camera_model.see(self.world, self.pose)

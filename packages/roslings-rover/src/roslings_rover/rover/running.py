@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable
 from pathlib import Path
 
-from roslings_rover.asked import listening
 from roslings_rover.errors import DeviceTrouble
 from roslings_rover.remembered import remember_the_ball
-from roslings_rover.rover.displays import Display, View, opened
+from roslings_rover.rover.displays import opened
 from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.keys import driving
 from roslings_rover.rover.made import rover_in
+from roslings_rover.rover.map_display import Display, View, shown_until
 from roslings_rover.rover.one_rover import rover_of_terminal
 from roslings_rover.rover.room_node import node_for
 from roslings_rover.rover.rover import Rover
 from roslings_rover.rover.words import position
+from roslings_rover.stop_signal import listening
 
 REMEMBERED = "It is written down. End the rover with Ctrl-C; ./roslings says what is next."
 NOT_REMEMBERED = "End the rover with Ctrl-C. It cannot be written down: {because}."
 
 
-class CannotSave(DeviceTrouble):
+class CannotSaveMap(DeviceTrouble):
     """The picture of the map cannot be written there."""
 
     def __init__(self, file: Path, because: str) -> None:
@@ -43,7 +43,7 @@ def run(
 
     One that `listens` shows what others say; with `tf` it also publishes /tf, where the type of
     that topic is installed. `room` is the seed of a room that it is in. Raises NoWindow,
-    CannotSave, NoTerminal, NoSeed, RoverInCell.
+    CannotSaveMap, NoTerminal, NoSeed, RoverInCell.
     """
     picture = picture and _as_typed(picture)
     if picture:
@@ -61,17 +61,18 @@ def run(
 
 
 def _go_on(
-    node: DrivenRover, display: Display, asked: threading.Event, look: Callable[[], None]
+    node: DrivenRover,
+    display: Display[DrivenRover],
+    asked: threading.Event,
+    look: Callable[[], None],
 ) -> None:
-    due_s = time.monotonic()
-    while not (asked.is_set() or display.closed):
+    def turn() -> None:
         look()
         node.turn()
         if node.reached and not node.next_step:
             node.next_step = _remember()
-        if time.monotonic() >= due_s:
-            display.show(node)
-            due_s = time.monotonic() + display.every_s
+
+    shown_until(asked, display, node, turn)
 
 
 def _remember() -> str:
@@ -90,11 +91,11 @@ def _as_typed(path: Path) -> Path:
 
 def _require_place_for(picture: Path) -> None:
     if picture.suffix.lower() not in (".png", ".svg", ".pdf"):
-        raise CannotSave(picture, "its name must end in .png, .svg or .pdf")
+        raise CannotSaveMap(picture, "its name must end in .png, .svg or .pdf")
     if not picture.parent.is_dir():
-        raise CannotSave(picture, f"there is no folder {picture.parent}")
+        raise CannotSaveMap(picture, f"there is no folder {picture.parent}")
     if picture.is_dir():
-        raise CannotSave(picture, "that is a folder")
+        raise CannotSaveMap(picture, "that is a folder")
 
 
 def _save(rover: Rover, picture: Path) -> None:
@@ -103,5 +104,5 @@ def _save(rover: Rover, picture: Path) -> None:
     try:
         save(rover, picture)
     except OSError as error:
-        raise CannotSave(picture, error.strerror or str(error)) from error
+        raise CannotSaveMap(picture, error.strerror or str(error)) from error
     print(f"Saved {picture}")

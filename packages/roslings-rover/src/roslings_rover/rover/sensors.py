@@ -1,4 +1,4 @@
-"""The rover's eyes for distance: an ultrasonic sensor and a laser scanner."""
+"""The rover's sensors of distance: an ultrasonic sensor and a laser scanner."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from roslings_rover.models.world import World
 
 
 @dataclass(frozen=True)
-class Reading:
+class DistanceReading:
     """One measured distance, with infinities as REP 117 has them."""
 
     range_m: float
@@ -33,14 +33,14 @@ class RangeSensor:
     """Standard deviation of one reading."""
     rays: int = 7
 
-    def read(self, world: World, pose: Pose, chance: random.Random) -> Reading:
+    def read(self, world: World, pose: Pose, chance: random.Random) -> DistanceReading:
         """What it measures from `pose`."""
         x_m, y_m = pose.ahead(self.mounted_ahead_m)
         half, steps = self.field_of_view_rad / 2, self.rays - 1
         angles = (pose.heading_rad - half + i * 2 * half / steps for i in range(self.rays))
         true_m = min(world.distance(x_m, y_m, angle) for angle in angles)
         measured_m = true_m + chance.gauss(0.0, self.noise_m)
-        return Reading(by_rep_117(measured_m, self.nearest_m, self.farthest_m))
+        return DistanceReading(by_rep_117(measured_m, self.nearest_m, self.farthest_m))
 
 
 @dataclass(frozen=True)

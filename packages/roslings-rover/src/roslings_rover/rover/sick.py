@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ros2_on_pip.rosbag2.errors import BagError
 from roslings_rover.errors import DeviceTrouble
-from roslings_rover.models.drives.sick_rover import NoName, sick_rover
+from roslings_rover.models.drives.sick_rover import NotARoverName, sick_rover
 from roslings_rover.models.drives.unknown import as_drive
 from roslings_rover.rover.black_box import write_drive
 
@@ -35,7 +35,7 @@ def write_sick_rover(name: str, folder: Path) -> float:
     """
     try:
         rover = sick_rover(name)
-    except NoName:
+    except NotARoverName:
         raise NeedsName from None
     try:
         write_drive(as_drive(rover.plan, tuple(rover.said)), folder)

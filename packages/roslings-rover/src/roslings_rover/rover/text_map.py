@@ -23,7 +23,7 @@ LETTER_HEIGHT = 2.0
 
 
 @dataclass(frozen=True)
-class Cell:
+class MapCell:
     """One letter of the map, and what it shows."""
 
     letter: str
@@ -31,7 +31,7 @@ class Cell:
     hue: int | None = None
 
 
-FLOOR = Cell(" ", "floor")
+FLOOR = MapCell(" ", "floor")
 
 
 @dataclass(frozen=True)
@@ -78,12 +78,12 @@ def cells(
     letters: Letters,
     said: str = "",
     believed: Pose | None = None,
-) -> list[list[Cell]]:
+) -> list[list[MapCell]]:
     """The map, letter by letter; what is `said` stands over the rover.
 
     Where somebody believes it to be elsewhere, a second arrow stands there.
     """
-    sheet = Sheet(rover.world, *size_for(rover.world, columns, lines), letters)
+    sheet = TextMap(rover.world, *size_for(rover.world, columns, lines), letters)
     sheet.put_obstacles()
     sheet.put_path(rover.path)
     for thing in moving_in(rover.world):
@@ -97,7 +97,7 @@ def cells(
     return list(sheet.rows())
 
 
-class Sheet:
+class TextMap:
     """A map that is being drawn."""
 
     def __init__(self, world: World, columns: int, lines: int, letters: Letters) -> None:
@@ -106,7 +106,7 @@ class Sheet:
         self._cells = [[FLOOR] * self._wide for _ in range(self._high)]
         self._balls: dict[tuple[int, int], tuple[float, float]] = {}
 
-    def rows(self) -> Iterator[list[Cell]]:
+    def rows(self) -> Iterator[list[MapCell]]:
         """The lines from above, with the room's walls around them."""
         north_west, north_east, south_west, south_east, along, upright = self._letters.frame
         yield self._wall(north_west + along * self._wide + north_east)
@@ -122,7 +122,7 @@ class Sheet:
         blocked = gaps(shown, *self._half_letters()) <= 0
         for line, column in np.argwhere(blocked[::2] | blocked[1::2]):
             halves = blocked[2 * line, column] + 2 * blocked[2 * line + 1, column]
-            self._cells[line][column] = Cell(letters[halves], "wall")
+            self._cells[line][column] = MapCell(letters[halves], "wall")
 
     def put_path(self, path: list[Pose], hue: int | None = None) -> None:
         """Where the rover went; with a hue, where there are several."""
@@ -130,7 +130,7 @@ class Sheet:
             column, line = self._position(pose.x_m, pose.y_m)
             cell = self._cell(column, line)
             if cell and cell.kind in ("floor", "path"):
-                self._set(column, line, Cell(self._dotted(cell, column, line), "path", hue))
+                self._set(column, line, MapCell(self._dotted(cell, column, line), "path", hue))
 
     def put_moving(self, thing: Circle) -> None:
         """What moves, where it is now: its middle, and as many letters as it covers."""
@@ -138,21 +138,21 @@ class Sheet:
         for column in columns:
             for line in lines:
                 if thing.gap(*self._place(column + 0.5, line + 0.5)) <= 0:
-                    self._set(column, line, Cell(self._letters.moving, "moving"))
-        self._set(*self._position(thing.x_m, thing.y_m), Cell(self._letters.moving, "moving"))
+                    self._set(column, line, MapCell(self._letters.moving, "moving"))
+        self._set(*self._position(thing.x_m, thing.y_m), MapCell(self._letters.moving, "moving"))
 
     def put_ball(self, ball: Ball) -> None:
         """One ball."""
         column, line = self._position(ball.x_m, ball.y_m)
         self._balls[int(column), int(line)] = column, line
-        self._set(column, line, Cell(self._letters.ball, "ball", ball.hue))
+        self._set(column, line, MapCell(self._letters.ball, "ball", ball.hue))
 
     def put_rover(self, pose: Pose, kind: Kind = "rover", hue: int | None = None) -> None:
         """The rover, as an arrow; it never covers a ball. With a hue, where there are several."""
         arrows = self._letters.arrows
         turn = round(pose.heading_rad / (2 * math.pi) * len(arrows)) % len(arrows)
         place = self._beside_a_ball(*self._position(pose.x_m, pose.y_m))
-        self._set(*place, Cell(arrows[turn], kind, hue))
+        self._set(*place, MapCell(arrows[turn], kind, hue))
 
     def _beside_a_ball(self, column: float, line: float) -> tuple[float, float]:
         """Where the rover and a ball share a letter: the next one, on the side where it is."""
@@ -171,12 +171,12 @@ class Sheet:
         left = min(max(int(column) - len(shown) // 2, 0), self._wide - len(shown))
         row = int(line) - 1 if int(line) else int(line) + 1
         for place, letter in enumerate(shown, left):
-            self._set(place, row, Cell(letter, "said"))
+            self._set(place, row, MapCell(letter, "said"))
 
-    def _wall(self, text: str) -> list[Cell]:
-        return [Cell(letter, "wall") for letter in text]
+    def _wall(self, text: str) -> list[MapCell]:
+        return [MapCell(letter, "wall") for letter in text]
 
-    def _dotted(self, cell: Cell, column: float, line: float) -> str:
+    def _dotted(self, cell: MapCell, column: float, line: float) -> str:
         if not self._letters.dots:
             return "."
         before = ord(cell.letter) - BRAILLE if cell.kind == "path" else 0
@@ -221,10 +221,10 @@ class Sheet:
         line = (room.north_m - y_m) / (room.north_m - room.south_m) * self._high
         return min(max(column, 0.0), self._wide - 1e-6), min(max(line, 0.0), self._high - 1e-6)
 
-    def _cell(self, column: float, line: float) -> Cell:
+    def _cell(self, column: float, line: float) -> MapCell:
         return self._cells[int(line)][int(column)]
 
-    def _set(self, column: float, line: float, cell: Cell) -> None:
+    def _set(self, column: float, line: float, cell: MapCell) -> None:
         self._cells[int(line)][int(column)] = cell
 
 

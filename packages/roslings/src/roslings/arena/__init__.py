@@ -7,7 +7,7 @@ with each other, so they live together.
 from ros2_on_pip.domain_lease import NoFreeDomain
 from ros2_on_pip.profiles import QUICK_DISCOVERY
 from roslings.arena import kernel
-from roslings.arena.arena import Arena, Installed, Place, opened
+from roslings.arena.arena import Arena, ArenaPlace, Installed, opened
 from roslings.arena.companion import Companion, Plan
 from roslings.arena.environment import (
     Wall,
@@ -24,6 +24,7 @@ __all__ = [
     "LONGEST_WAIT_S",
     "QUICK_DISCOVERY",
     "Arena",
+    "ArenaPlace",
     "CannotStart",
     "Companion",
     "Host",
@@ -35,7 +36,6 @@ __all__ = [
     "NoFreeDomain",
     "NoFreeUser",
     "NoHosts",
-    "Place",
     "Plan",
     "Process",
     "Sandbox",

@@ -31,7 +31,7 @@ class Installed:
 
 
 @dataclass(frozen=True)
-class Place:
+class ArenaPlace:
     """Where processes live: behind which walls, with which folders."""
 
     wall: Wall
@@ -76,7 +76,7 @@ class Arena:
     def __init__(
         self,
         installed: Installed,
-        place: Place,
+        place: ArenaPlace,
         domain_id: int,
         on_change: Callable[[], None] = lambda: None,
     ) -> None:
@@ -154,7 +154,7 @@ class Arena:
         """As `waits_ns`, of this process, which plays the devices; empty without any.
 
         A thread of ours may be ready and wait for another one of ours, of which the kernel knows
-        nothing: a device that tells of it stands among the threads.
+        nothing. A device that tells of it stands among the threads.
         """
         if not any(self.devices.iterdir()):
             return {}
@@ -174,7 +174,7 @@ class Arena:
 
 
 @contextmanager
-def opened(installed: Installed, place: Place) -> Iterator[Arena]:
+def opened(installed: Installed, place: ArenaPlace) -> Iterator[Arena]:
     """An arena with a domain that nobody else uses. Raises NoFreeDomain.
 
     A domain of its own for each experiment: a node that was killed stays in its graph for 20 s.

@@ -32,7 +32,7 @@ _numbers = itertools.count()
 
 
 @dataclass(frozen=True)
-class Tree:
+class CgroupTree:
     """A folder in which groups can be made, and what they control."""
 
     folder: Path
@@ -61,7 +61,7 @@ class Group:
 
 
 @contextmanager
-def group(trees: Sequence[Tree], bounds: Bounds) -> Iterator[Group]:
+def group(trees: Sequence[CgroupTree], bounds: Bounds) -> Iterator[Group]:
     """A group in each tree, gone with the block. Raises OSError where one cannot be made."""
     name = f"{PREFIX}{os.getpid()}-{_began(os.getpid())}-{next(_numbers)}"
     made: list[Path] = []
@@ -131,12 +131,12 @@ def _remove(folder: Path) -> None:
             return
 
 
-def shares_processors(trees: Sequence[Tree]) -> bool:
+def shares_processors(trees: Sequence[CgroupTree]) -> bool:
     """Whether a group of these is worth the same share, however many processes it has."""
     return any("cpu" in tree.controllers for tree in trees)
 
 
-def trees() -> tuple[Tree, ...]:
+def trees() -> tuple[CgroupTree, ...]:
     """Where this process can make groups, for each controller at most one; old ones are swept."""
     found = [tree for tree in _all_trees() if os.access(tree.folder, os.W_OK)]
     for tree in found:
@@ -144,17 +144,17 @@ def trees() -> tuple[Tree, ...]:
     return tuple(found)
 
 
-def _all_trees() -> Iterator[Tree]:
+def _all_trees() -> Iterator[CgroupTree]:
     own = _own_groups()
     for mount in _mounts():
         names = [name for name in CONTROLLERS if name in mount.controllers]
         if mount.version == 2 and "" in own:
             yield from _beside(mount, own[""])
         elif names and names[0] in own:
-            yield Tree(mount.folder_of(own[names[0]]), tuple(names), 1)
+            yield CgroupTree(mount.folder_of(own[names[0]]), tuple(names), 1)
 
 
-def _beside(mount: Mount, own: str) -> Iterator[Tree]:
+def _beside(mount: Mount, own: str) -> Iterator[CgroupTree]:
     """In version 2 a group that has processes has no children: beside it, or further up.
 
     Source: Linux, Documentation/admin-guide/cgroup-v2.rst, "No Internal Process Constraint".
@@ -163,7 +163,7 @@ def _beside(mount: Mount, own: str) -> Iterator[Tree]:
     for each in (folder, *folder.parents):
         handed_down = _words(each / "cgroup.subtree_control")
         if handed_down >= NEEDED and os.access(each, os.W_OK):
-            yield Tree(each, tuple(name for name in CONTROLLERS if name in handed_down), 2)
+            yield CgroupTree(each, tuple(name for name in CONTROLLERS if name in handed_down), 2)
             return
         if each == mount.place:
             return

@@ -1,9 +1,9 @@
 """A program of a grader's own that stands beside the student's nodes: an operator, a button.
 
 It is a process, so that it can freeze and be killed as a student's program can, or run on another
-host. It is started with its plan, JSON, as its only word; then it is told what to do by lines of
-JSON on standard input, and tells what it sees in the same way on standard output. Where there is
-a sandbox it stands in one: it hears what strangers' nodes say, and sees of the course its own file
+host. It is started with its plan, JSON, as its only word. Then it is told what to do by lines of
+JSON on standard input. It tells what it sees in the same way on standard output. Where there is a
+sandbox it stands in one: it hears what strangers' nodes say, and sees of the course its own file
 alone.
 """
 

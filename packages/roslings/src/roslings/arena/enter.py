@@ -66,15 +66,15 @@ def try_namespaces() -> None:
 def hear_oneself() -> None:
     """Send one datagram to a multicast group and receive it. Raises OSError."""
     with (
-        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as ear,
-        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as mouth,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,
     ):
-        ear.bind(("", 0))
+        receiver.bind(("", 0))
         group = socket.inet_aton(MULTICAST_GROUP) + socket.inet_aton("127.0.0.1")
-        ear.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
-        ear.settimeout(5.0)
-        mouth.sendto(b"hello", (MULTICAST_GROUP, ear.getsockname()[1]))
-        ear.recv(16)
+        receiver.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
+        receiver.settimeout(5.0)
+        sender.sendto(b"hello", (MULTICAST_GROUP, receiver.getsockname()[1]))
+        receiver.recv(16)
 
 
 if __name__ == "__main__":

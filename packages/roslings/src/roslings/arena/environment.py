@@ -62,8 +62,8 @@ def ros_environment(wall: Wall, paced: bool = False) -> dict[str, str]:
 def base_environment(home: Path, hidden_package: str | None = None) -> dict[str, str]:
     """What a build or a node may see of this machine.
 
-    `hidden_package` is the package under test: a version of it that the student has sourced in
-    this terminal must not stand in for the one that is handed in.
+    `hidden_package` is the package under test. A version of it that the student has sourced in this
+    terminal must not stand in for the one that is handed in.
     """
     kept = {name: os.environ[name] for name in INHERITED if name in os.environ}
     if "LD_LIBRARY_PATH" not in kept:

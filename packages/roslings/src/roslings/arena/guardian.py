@@ -2,10 +2,10 @@
 
     python -I -S -c "import guardian; guardian.main(FD)"
 
-FD is one end of a stream socket pair; the arena holds the other. It first sends the number of
-bytes of an `Order` on a line, and the bytes, of `marshal`; later a signal's name, `WAITS`,
-`OWN_WAITS`, `WORKED`, `STATE`, `COMMANDS` or `KILL:PID`, a line. The guardian answers one line of
-JSON an event:
+FD is one end of a stream socket pair; the arena holds the other. It first sends the number of bytes
+of a `StartOrder` on a line, and the bytes, of `marshal`. Later it sends a line each: a signal's
+name, `WAITS`, `OWN_WAITS`, `WORKED`, `STATE`, `COMMANDS` or `KILL:PID`. The guardian answers one
+line of JSON an event:
 
     {"started": PID}                       {"said": TEXT, "at": NS}
     {"exited": STATUS, "at": NS, ...}      {"refused": REASON}
@@ -18,12 +18,12 @@ JSON an event:
     {"answer": {PID: COMMAND}, "to": ...}  to COMMANDS: all that descend from it, with the words
                                            of each command behind one another, NUL between them
 
-Where the order says `namespaces`, the process lives in a pid namespace whose first process is
-this guardian: when the guardian goes, the kernel ends all that the process started. So it is
-where the order says `sandbox`: then this guardian was started inside of it. Elsewhere it adopts
-orphans and ends them one by one; where the order names a `user`, the process is that user. When
-the arena's end of the socket closes, for whatever reason, everything ends. Times are nanoseconds
-of the monotonic clock.
+Where the order says `namespaces`, the process lives in a pid namespace whose first process is this
+guardian. When the guardian goes, the kernel ends all that the process started. So it is where the
+order says `sandbox`: then this guardian was started inside of it. Elsewhere it adopts orphans and
+ends them one by one; where the order names a `user`, the process is that user. When the arena's end
+of the socket closes, for whatever reason, everything ends. Times are nanoseconds of the monotonic
+clock.
 
 A grading starts five of these, and most of what one takes is Python's start: so it imports little.
 The modules of json, sockets, contexts, dataclasses and paths would double it.
@@ -64,7 +64,7 @@ NEARLY = 0.95
 """The kernel keeps it from reaching its bound, or ends one process only."""
 
 
-class Order:
+class StartOrder:
     """What to start, where, and how much of its output to pass on."""
 
     def __init__(
@@ -82,7 +82,7 @@ class Order:
         reach: dict[str, object] | None,
         busy: int,
     ) -> None:
-        """What the names of each dictionary mean: `Spout`, `Flood`, the module `resource`, these.
+        """What each dictionary's names mean: `BoundedOutput`, `Flood`, module `resource`, these.
 
         `watch`: the most of `memory`, in bytes, of `pids`, threads too, of `cpu_s`, and of `files`.
         `user`: who the process becomes; None where it stays who the guardian is.
@@ -97,10 +97,10 @@ class Order:
         self.user, self.filters, self.reach, self.busy = user, filters, reach, busy
 
 
-class Spout:
+class BoundedOutput:
     """Passes on the first of an endless output, and keeps the last for the end.
 
-    Lines are bounded as well as bytes: half a million empty ones are 512 KB here, and hold the
+    Lines are bounded as well as bytes. Half a million empty ones are 512 KB here, and hold the
     arena up for seconds when each becomes a record of the evidence.
     """
 
@@ -194,10 +194,10 @@ class Flood:
 class Guardian:
     """One process, from start to end."""
 
-    def __init__(self, channel: int, order: Order) -> None:
+    def __init__(self, channel: int, order: StartOrder) -> None:
         self.channel = channel
         self.order = order
-        self.spout = Spout(**order.output)
+        self.bounded_output = BoundedOutput(**order.output)
         self.flood = Flood(**order.flood)
         self.waker, waked = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
         signal.signal(signal.SIGCHLD, lambda *_: None)
@@ -221,16 +221,16 @@ class Guardian:
         self.end_all()
         self.drain()
         self.tell_rest()
-        if self.printed_on and self.spout.dropped and not self.bounds_met:
+        if self.printed_on and self.bounded_output.dropped and not self.bounds_met:
             self.bounds_met = ["output"]
         self.tell(
             {
                 **(self.exited or {"exited": None}),
                 "left_behind": left,
-                "output_bytes": self.spout.total,
-                "output_lines": self.spout.lines,
-                "dropped_bytes": self.spout.dropped,
-                "ending_cut": int(self.spout.ending_cut),
+                "output_bytes": self.bounded_output.total,
+                "output_lines": self.bounded_output.lines,
+                "dropped_bytes": self.bounded_output.dropped,
+                "ending_cut": int(self.bounded_output.ending_cut),
                 "bounds_met": self.bounds_met,
                 "most_busy": self.most_busy,
                 "filled_its_disk": int(self.filled_its_disk),
@@ -291,7 +291,7 @@ class Guardian:
         except OSError:  # EIO: the last holder of the other side closed it
             time.sleep(0.001)
             return False
-        self.say(self.spout.take(chunk))
+        self.say(self.bounded_output.take(chunk))
         if self.flood.take(chunk) and not self.bounds_met:
             self.bounds_met = ["output"]
             kill_all(descendants())  # it prints on until it is gone
@@ -304,9 +304,9 @@ class Guardian:
 
     def tell_rest(self) -> None:
         """The end of a long output, after a line that says how much is missing."""
-        rest = self.spout.rest()
-        if self.spout.dropped:
-            self.say(f"\n[... {self.spout.dropped} bytes not kept ...]\n".encode())
+        rest = self.bounded_output.rest()
+        if self.bounded_output.dropped:
+            self.say(f"\n[... {self.bounded_output.dropped} bytes not kept ...]\n".encode())
         self.say(rest)
 
     def obey(self) -> bool:
@@ -327,7 +327,7 @@ class Guardian:
             kill_own(int(name.removeprefix(KILL)))
         elif self.exited is None:
             self.printed_on = self.printed_on or self.flood.goes_on()
-            self.spout.begin_ending()
+            self.bounded_output.begin_ending()
             os.kill(self.pid, getattr(signal, name))
 
     def answer_to(self, name: str) -> object:
@@ -409,7 +409,7 @@ def as_json(value: object) -> str:
     return repr(value)
 
 
-def start(order: Order) -> tuple[int, int, int | None]:
+def start(order: StartOrder) -> tuple[int, int, int | None]:
     """Start the process on a terminal of its own; returns its pid and our side of it.
 
     And the descriptor on which a filter asks whether it may call the kernel, where it has one.
@@ -431,7 +431,7 @@ def start(order: Order) -> tuple[int, int, int | None]:
     return pid, terminal, asked
 
 
-def become(order: Order, there: object) -> None:
+def become(order: StartOrder, there: object) -> None:
     """In the child: be the ordered command, with the signals that a fresh terminal gives."""
     try:
         make_plain_terminal(sys.stdout.fileno())
@@ -709,7 +709,7 @@ def main(channel: int) -> None:
     """Take the order, go where it says, and guard; the process's whole life."""
     kernel.die_with_parent()
     os.set_inheritable(channel, False)
-    order = Order(**marshal.loads(read_order(channel)))
+    order = StartOrder(**marshal.loads(read_order(channel)))
     for number in LATEST_SIGNALS:
         signal.signal(number, signal.SIG_IGN)
     try:

@@ -85,7 +85,7 @@ class Host:
             os.close(home)
 
 
-class Link:
+class HostLink:
     """What joins the two hosts. A context manager: leaving the block ends it."""
 
     def __init__(self, ends: tuple[int, int], delay_s: float, loss: float, seed: int) -> None:
@@ -93,7 +93,7 @@ class Link:
         self._ends = ends
         self._words = [str(delay_s), str(loss), str(seed)]
 
-    def __enter__(self) -> Link:
+    def __enter__(self) -> HostLink:
         self._control, theirs = socket.socketpair()
         with theirs:
             words = [*map(str, self._ends), str(theirs.fileno()), *self._words]
@@ -136,7 +136,7 @@ class Hosts:
 
     first: Host
     second: Host
-    link: Link
+    link: HostLink
 
 
 @contextmanager
@@ -157,7 +157,7 @@ def two_hosts(
         for network, end in made:
             stack.callback(os.close, network)
             stack.callback(os.close, end)
-        link = stack.enter_context(Link((made[0][1], made[1][1]), delay_s, loss, seed))
+        link = stack.enter_context(HostLink((made[0][1], made[1][1]), delay_s, loss, seed))
         first, second = (
             Host(name, ADDRESSES[at], ADDRESSES[1 - at], made[at][0])
             for at, name in enumerate(names)

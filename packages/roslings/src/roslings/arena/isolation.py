@@ -68,7 +68,7 @@ class Isolation:
     def command(self, inner: Sequence[str], room: Path | None = None) -> list[str]:
         """The command that runs `inner` behind this wall.
 
-        With a sandbox, `room` is an empty folder, which then holds ROOM_BYTES at most, is seen
+        With a sandbox, `room` is an empty folder, which then holds ROOM_BYTES at most. It is seen
         by `inner` and its children only, and is gone with them.
         """
         if self.wall != "namespace":

@@ -21,7 +21,7 @@ IP_UDP = 17
 FIRST_MULTICAST = 224
 
 
-class Link:
+class EmulatedLink:
     """What is under way between two ends, and what was lost."""
 
     def __init__(self, ends: tuple[int, int], delay_s: float, loss: float, seed: int) -> None:
@@ -73,7 +73,7 @@ def _read(end: int) -> bytes:
 
 def main(ends: tuple[int, int], control: int, delay_s: float, loss: float, seed: int) -> None:
     """Be the link, until the other end of `control` closes."""
-    link = Link(ends, delay_s, loss, seed)
+    link = EmulatedLink(ends, delay_s, loss, seed)
     while True:
         ready, _, _ = select.select([*ends, control], [], [], link.rests_s(time.monotonic()))
         if control in ready and not _obey(link, control):
@@ -83,7 +83,7 @@ def main(ends: tuple[int, int], control: int, delay_s: float, loss: float, seed:
         link.deliver(time.monotonic())
 
 
-def _obey(link: Link, control: int) -> bool:
+def _obey(link: EmulatedLink, control: int) -> bool:
     """Do what was said; whether somebody is still there."""
     words = os.read(control, PACKET_BYTES).split()
     for word in words:

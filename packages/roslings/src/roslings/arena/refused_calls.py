@@ -31,7 +31,7 @@ X32 = 0x40000000
 
 
 @dataclass(frozen=True)
-class Machine:
+class ProcessorKind:
     """A kind of processor, as the kernel numbers it and its calls."""
 
     architecture: int
@@ -40,7 +40,7 @@ class Machine:
 
 
 MACHINES = {
-    "x86_64": Machine(
+    "x86_64": ProcessorKind(
         0xC000003E,
         56,
         {
@@ -71,7 +71,7 @@ MACHINES = {
             "userfaultfd": 323,
         },
     ),
-    "aarch64": Machine(
+    "aarch64": ProcessorKind(
         0xC00000B7,
         220,
         {
@@ -151,7 +151,7 @@ def name_of(number: int) -> str:
 
 
 def _program(
-    machine: Machine, refused: Sequence[int], missing: Sequence[int], refuses: int
+    machine: ProcessorKind, refused: Sequence[int], missing: Sequence[int], refuses: int
 ) -> list[bytes]:
     """Each comparison leads on, or to one of the three answers at the end."""
     begin = [

@@ -1,8 +1,8 @@
 """A sandbox for strangers' code, made by bubblewrap: what may be seen is listed, nothing is hidden.
 
-Inside are the system's programs, Python with its packages, what stands in for packages of ROS that
-are not installed, and the one submission; no home, no course, no grader, no other submission. Of
-the network only the loopback of the arena exists.
+Inside are the system's programs, Python with its packages, and the one submission. What stands in
+for packages of ROS that are not installed is there, too. No home, no course, no grader and no other
+submission is inside. Of the network only the loopback of the arena exists.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ class Sandbox:
 
     program: Path
     """bubblewrap itself."""
-    trees: tuple[cgroup.Tree, ...] = ()
+    trees: tuple[cgroup.CgroupTree, ...] = ()
     shown: tuple[Path, ...] = ()
     written: tuple[tuple[Path, Path], ...] = ()
     """Folders that it may write: where each lies, and where the process sees it."""
@@ -205,9 +205,10 @@ class Sandbox:
 def _settings_and_keys() -> Iterator[str]:
     """The kernel's settings are the whole machine's, and can be read; what is root's is empty.
 
-    Where root grades, the kernel takes the process for root as soon as it opens one of them: its
-    rights, of which it has none, are not asked (sysctl_perm), only its user. bubblewrap leaves
-    these folders open, for the folders themselves nobody can write. A kernel may be built without.
+    Where root grades, the kernel takes the process for root as soon as it opens one of them. The
+    kernel does not ask for its rights, of which it has none (sysctl_perm), only for its user.
+    `bubblewrap` leaves these folders open, for the folders themselves nobody can write. A kernel
+    may be built without.
     """
     for name in KERNEL_SETTINGS:
         yield from ("--ro-bind-try", str(PROC / name), str(PROC / name))

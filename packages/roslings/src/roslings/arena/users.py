@@ -75,7 +75,7 @@ class User:
     uid: int
     folder: Path
     """Root's own; in it lie the user's folders."""
-    trees: tuple[cgroup.Tree, ...] = ()
+    trees: tuple[cgroup.CgroupTree, ...] = ()
     bounds: Bounds = field(default_factory=Bounds)
     shown: tuple[Path, ...] = ()
     closed: tuple[str, ...] = ()

@@ -1,7 +1,7 @@
 """What can be done on this very machine where no wall holds strangers' code: nothing else is said.
 
-Who is an ordinary user already is not told to be one; what the kernel forbids is named by its
-setting; and another machine is advised only where this one has no way.
+Who is an ordinary user already is not told to be one. What the kernel forbids is named by its
+setting. Another machine is advised only where this one has no way.
 """
 
 from __future__ import annotations

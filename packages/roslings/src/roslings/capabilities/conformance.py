@@ -40,7 +40,7 @@ from roslings.judge.faults import Fault
 from roslings.record import PartSeen
 
 Check = Callable[[Capability[Any]], None]
-PURE = ("contract", "record", "demands", "faults", "report")
+PURE = ("contract", "record", "demands", "faults", "reasons", "report")
 """Modules that evidence is read, judged and shown with."""
 RUNS = ("rclpy", "roslings.arena", "roslings.experiment", "roslings.probe")
 
@@ -134,7 +134,7 @@ def its_sections_draw_nothing_from_nothing(known: Capability[Any]) -> None:
 def reading_and_judging_run_nothing(known: Capability[Any]) -> None:
     """What evidence is read, judged and shown with imports neither ROS nor what measures."""
     modules = [name for name in _modules_of(known) if name.rpartition(".")[2] in PURE]
-    source = "import importlib, sys, roslings.lab_folders\n"
+    source = "import importlib, sys, roslings.folders.lab_folders\n"
     source += "for name in sys.argv[1:]: importlib.import_module(name)\n"
     source += f"print(*[name for name in {RUNS} if name in sys.modules])"
     done = subprocess.run(

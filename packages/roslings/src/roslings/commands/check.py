@@ -11,10 +11,13 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ros2_on_pip.leaving import leave
+from ros2_on_pip.label_column import wrapped
+from ros2_on_pip.language import said
+from ros2_on_pip.quick_exit import leave
 from ros2_on_pip.typed_paths import from_here
 from roslings import course
 from roslings.commands.holding import is_strangers, told_of_no_wall
+from roslings.commands.invocation import command_line
 from roslings.commands.options import (
     hidden_option,
     package_options,
@@ -25,13 +28,12 @@ from roslings.commands.options import (
 )
 from roslings.commands.showing import is_stdout, kept, read, replace_kept, show
 from roslings.course import NoSolution
-from roslings.typed import as_typed
 from roslings.workspace.student import workspace_root
 
 if TYPE_CHECKING:
     from roslings.course import Lab
+    from roslings.grading.saving import Graded
     from roslings.report.html import Own
-    from roslings.saving import Graded
 
 __all__ = ["add_options", "leave", "run"]
 
@@ -93,7 +95,7 @@ def add_options(word: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run what the student built, and say what to do next; a hint needs no new run."""
-    from roslings.platforms import refusal_written, shapes_asked
+    from roslings.grading.platforms import refusal_written, shapes_asked
 
     lab = _lab(options)
     if options.hint and not options.solution and kept(lab).is_file():
@@ -106,7 +108,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _lab(options: argparse.Namespace) -> Lab:
     """By the student's own card; the course's solution is one of everybody's."""
-    from roslings.own_card import own_lab
+    from roslings.workspace.own_card import own_lab
 
     if options.solution or (options.as_stranger and not options.whose):
         return course.lab(options.lab, options.hidden)
@@ -116,14 +118,14 @@ def _lab(options: argparse.Namespace) -> Lab:
 def _hint(lab: Lab, options: argparse.Namespace) -> int:
     """A hint for what the last check found. Raises NothingToSave."""
     if options.evidence or options.html:
-        from roslings.saving import NothingToSave
+        from roslings.grading.saving import NothingToSave
 
         raise NothingToSave
     return show(read(kept(lab)), options)
 
 
 def _check(lab: Lab, options: argparse.Namespace) -> int:
-    from roslings.platforms import for_others, handed_in
+    from roslings.grading.platforms import for_others, handed_in
 
     if options.solution:
         return _check_package(lab, _solution(lab), options)
@@ -132,10 +134,10 @@ def _check(lab: Lab, options: argparse.Namespace) -> int:
 
 
 def _check_package(lab: Lab, package: Path, options: argparse.Namespace) -> int:
-    from roslings.checking import any_seed, ready
-    from roslings.experiment import Choices, insist_on_wall
-    from roslings.platforms import for_others
-    from roslings.saving import place_for_bags
+    from roslings.experiment import MeasuringOptions, insist_on_wall
+    from roslings.grading.checking import any_seed, ready
+    from roslings.grading.platforms import for_others
+    from roslings.grading.saving import place_for_bags
 
     quiet = is_stdout(options.json)
     others = for_others(options)
@@ -147,7 +149,7 @@ def _check_package(lab: Lab, package: Path, options: argparse.Namespace) -> int:
     _try_port(lab, options.port)
     with place_for_bags(options.evidence, package) as bags:
         seed = any_seed() if options.seed is None else options.seed
-        choices = Choices(
+        choices = MeasuringOptions(
             seed,
             options.clock,
             bags,
@@ -172,7 +174,7 @@ def began_ns(environment: Mapping[str, str]) -> int:
 
     `./roslings` tells in seconds since the computer's start when it had installed what was missing.
     """
-    from roslings.timeline import NS_PER_S, process_began_ns
+    from roslings.seen.timeline import NS_PER_S, process_began_ns
 
     try:
         age_s = time.clock_gettime(time.CLOCK_BOOTTIME) - float(environment.get(READY, ""))
@@ -209,42 +211,46 @@ def _try_port(lab: Lab, port: Path | None) -> None:
     """A real board is tried before anything is built."""
     if port is None:
         return
+    from roslings.capabilities.serial.contract import SerialWords
     from roslings_rover.board.attached import LabHasNoBoard, try_port
 
-    if not lab.card.board:
+    if not lab.card.of(SerialWords).board:
         raise LabHasNoBoard(lab.name)
     try_port(port)
-    print("The wheels will turn: put the rover on a stand, wheels in the air.", file=sys.stderr)
+    stand = "The wheels will turn: put the rover on a stand, wheels in the air."
+    print(said("check.stand", stand), file=sys.stderr)
 
 
 def _save(graded: Graded, options: argparse.Namespace, bags: Path | None) -> None:
     """Save what was asked for, and say where it is."""
-    from roslings.saving import save
+    from roslings.grading.saving import save
 
     if options.html:
         graded.write_page(options.html, _own_page(options))
     _show_in_window(graded, options)
     if options.evidence:
         save(graded, options.evidence, bags)
-        say = f"\nThe evidence is in {from_here(options.evidence)}. Look at it in a browser:"
+        text = "The evidence is in {folder}. Look at it in a browser:"
+        told = said("check.evidence", text, folder=from_here(options.evidence))
         page = from_here(options.evidence / "report.html")
-        print(f"{say}\n{page}", file=sys.stderr if is_stdout(options.json) else sys.stdout)
+        stream = sys.stderr if is_stdout(options.json) else sys.stdout
+        print("", *wrapped(told), page, sep="\n", file=stream)
 
 
 def _show_in_window(graded: Graded, options: argparse.Namespace) -> None:
     """Its links cannot lead to the site's files: the window is a page of a server."""
     from roslings.report.html import Own
-    from roslings.report.whole_file import CannotWrite
+    from roslings.report.whole_file import CannotWriteFile
 
     if page := os.environ.get(WINDOW_PAGE):
-        with suppress(CannotWrite):  # the verdict stands in the terminal all the same
-            graded.write_page(Path(page), Own(as_typed(options)))
+        with suppress(CannotWriteFile):  # the verdict stands in the terminal all the same
+            graded.write_page(Path(page), Own(command_line(options)))
 
 
 def _own_page(options: argparse.Namespace) -> Own:
     """For the page of a student's own check: the same words, and the site that lies here."""
-    from roslings.built_site import site_here
+    from roslings.commands.built_site import site_here
     from roslings.report.html import Own
 
     site = site_here()
-    return Own(as_typed(options), site.as_uri() if site else "")
+    return Own(command_line(options), site.as_uri() if site else "")

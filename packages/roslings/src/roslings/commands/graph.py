@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
     """Show the running graph, or save a picture of it."""
     from ros2_on_pip.graph.words import graph_text
     from ros2_on_pip.surroundings import prepare
-    from roslings.rqt_graph import seen_graph
+    from roslings.commands.rqt_graph import seen_graph
 
     files = _pictures_wanted(options)
     there = [file for file in files if file.exists() and not options.force]
@@ -57,7 +57,7 @@ def _pictures_wanted(options: argparse.Namespace) -> list[Path]:
     """The file that was named, or those that a lab's card wants in the package."""
     if not options.lab:
         return [options.save] if options.save else []
-    from roslings.own_card import own_lab
+    from roslings.workspace.own_card import own_lab
 
     lab = own_lab(options.lab)
     package = package_of(lab, options.path)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from ros2_on_pip.language import said
 from roslings.workspace.student import workspace_root
 
 OPTION = "--as-stranger"
@@ -27,7 +28,8 @@ def told_of_no_wall(package: Path, options: argparse.Namespace) -> str:
     if wall.sandbox:
         return ""
     reason = wall.lack.reason if wall.lack else wall.because
-    return f"Nothing holds this package, it can do all that you can: {reason}. ({OPTION} refuses.)"
+    text = "Nothing holds this package, it can do all that you can: {reason}. ({option} refuses.)"
+    return said("check.no_wall", text, reason=reason, option=OPTION)
 
 
 def _is_own(package: Path) -> bool:

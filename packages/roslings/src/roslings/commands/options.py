@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from roslings.shapes import SHAPES
+from roslings.grading.shapes import SHAPES
 
 
 def lab_options(word: argparse.ArgumentParser) -> None:

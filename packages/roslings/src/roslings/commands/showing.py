@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ros2_on_pip.errors import EXIT_OF_OUTCOME
+from ros2_on_pip.language import said
 from roslings.course import Lab
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.student import workspace_root
@@ -21,10 +22,10 @@ def show(verdict: Verdict, options: argparse.Namespace, before: Verdict | None =
     """Print a verdict, and write it where that was asked for; the exit code."""
     from rich.console import Console
 
-    from roslings.platforms import write_shapes
+    from roslings.commands.invocation import command_line
+    from roslings.grading.platforms import write_shapes
     from roslings.report.json_file import write_json
     from roslings.report.terminal import print_verdict
-    from roslings.typed import as_typed
 
     if options.json:
         write_json(verdict, options.json)
@@ -37,7 +38,7 @@ def show(verdict: Verdict, options: argparse.Namespace, before: Verdict | None =
             only=options.only,
             whole=options.all,
             before=before,
-            typed=as_typed(options),
+            command_line=command_line(options),
         )
     return EXIT_OF_OUTCOME[verdict.outcome]
 
@@ -76,7 +77,7 @@ def read(path: Path) -> Verdict:
 def _keep(lab: Lab, verdict: Verdict, package: Path) -> None:
     """Keep score and verdict; a workspace that cannot be written does not hide the verdict."""
     from roslings.report.json_file import write_json
-    from roslings.report.whole_file import CannotWrite
+    from roslings.report.whole_file import CannotWriteFile
     from roslings.workspace.best import keep_best
     from roslings.workspace.progress import record
 
@@ -86,5 +87,6 @@ def _keep(lab: Lab, verdict: Verdict, package: Path) -> None:
         record(verdict)
         write_json(verdict, kept(lab))
         keep_best(lab, package, verdict.score)
-    except (WorkspaceError, CannotWrite) as error:
-        print(f"roslings: the score was not kept. {error}", file=sys.stderr)
+    except (WorkspaceError, CannotWriteFile) as error:
+        told = said("check.not_kept", "roslings: the score was not kept. {why}", why=error)
+        print(told, file=sys.stderr)

@@ -10,16 +10,17 @@ import webbrowser
 from pathlib import Path
 
 from ros2_on_pip.errors import OK
+from ros2_on_pip.language import language
 from roslings import course
-from roslings.built_site import BUILT_HERE, HOME, is_up_to_date, site_here, tell
+from roslings.commands.built_site import HOME, built_in, is_up_to_date, site_here, tell
+from roslings.commands.invocation import program
 from roslings.course import CourseError
-from roslings.typed import program
 from roslings.workspace.errors import WorkspaceError
 from roslings.workspace.student import workspace_root
 
-BUILDS = ("build", "fresh", "out")
+BUILDS = ("build", "fresh", "out", "language")
 """Options that ask for a new site."""
-LOOKS = ("links", "check_links")
+LOOKS = ("links", "check_links", "catalogue")
 """Options that build none."""
 SCREENS = ("DISPLAY", "WAYLAND_DISPLAY", "WSL_DISTRO_NAME")
 
@@ -38,6 +39,12 @@ def add_options(word: argparse.ArgumentParser) -> None:
     links.add_argument(
         "--check-links", action="store_true", help="try the links to other sites (needs a network)"
     )
+    links.add_argument(
+        "--catalogue", action="store_true", help="write the texts that a translator fills in"
+    )
+    word.add_argument(
+        "--language", metavar="LANG", help="build it in another language (en_XA: a false one)"
+    )
     word.add_argument(
         "--out", metavar="DIR", type=Path, help="build it in DIR (default: build/site)"
     )
@@ -52,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
         return _show(html, options)
     if code := _build(options):
         return code
-    built = options.out / "html" if options.out else course.root() / BUILT_HERE
+    built = options.out / "html" if options.out else built_in(options.language or language())
     only_built = _asks(options, BUILDS) and not options.open
     return _say_where(built) if only_built else _show(built, options)
 
@@ -64,6 +71,7 @@ def _asks(options: argparse.Namespace, words: tuple[str, ...]) -> bool:
 def _build(options: argparse.Namespace) -> int:
     words = [f"--{name.replace('_', '-')}" for name in ("fresh", *LOOKS) if getattr(options, name)]
     place = ["--out", str(options.out)] if options.out else []
+    place += ["--language", options.language] if options.language else []
     builder = course.root() / "site" / "build.py"
     return subprocess.run([sys.executable, str(builder), *words, *place], check=False).returncode
 

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from ros2_on_pip.errors import OK
+from ros2_on_pip.label_column import wrapped
+from ros2_on_pip.language import counted, said
 from ros2_on_pip.typed_paths import from_here, shown
+from roslings.commands.invocation import program
 from roslings.commands.options import lab_options, whose_option
-from roslings.typed import program
+
+if TYPE_CHECKING:
+    from roslings.course import Lab
+    from roslings.workspace.student import Started
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -22,7 +30,7 @@ def add_options(word: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Put a lab's starter into the workspace."""
-    from roslings.own_card import own_lab, take_name, told_of
+    from roslings.workspace.own_card import own_lab, take_name, told_of
     from roslings.workspace.student import start as put
 
     if options.whose is not None:
@@ -30,8 +38,20 @@ def run(options: argparse.Namespace) -> int:
     told = list(told_of(options.lab))
     lab = own_lab(options.lab)
     started = put(lab)
-    print(f"The starter of {lab.name!r} is in {shown(started.package)} ({started.files} files).")
-    print("".join(f"{line}\n" for line in told), end="")
-    print(f"Read the task: {from_here(lab.task)}")
-    print(f"Then check what you built: {program()} check {lab.name}")
+    print("\n".join([*_told(lab, started), *told, *_next(lab)]))
     return OK
+
+
+def _told(lab: Lab, started: Started) -> list[str]:
+    one = "The starter of {lab!r} is in {package} ({count} file)."
+    other = "The starter of {lab!r} is in {package} ({count} files)."
+    package = shown(started.package)
+    return wrapped(
+        counted("start.done", started.files, one=one, other=other, lab=lab.name, package=package)
+    )
+
+
+def _next(lab: Lab) -> Iterator[str]:
+    yield from wrapped(said("start.task", "Read the task: {task}", task=from_here(lab.task)))
+    check = f"{program()} check {lab.name}"
+    yield said("start.check", "Then check what you built: {command}", command=check)

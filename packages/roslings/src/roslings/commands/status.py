@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
 
 from ros2_on_pip.errors import OK
-from roslings.way import (
+from ros2_on_pip.label_column import LabelledLine, column_of, columns_of, labelled, padded
+from ros2_on_pip.language import said
+from roslings.commands.way import (
     FIRST_DAY,
     bar,
     best_quiz_of,
@@ -15,6 +18,9 @@ from roslings.way import (
     how_far_is_the_first_day,
 )
 from roslings.workspace import progress
+
+if TYPE_CHECKING:
+    from roslings.workspace.progress import LabStatus
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -29,24 +35,46 @@ def run(options: argparse.Namespace) -> int:
 
 def lines() -> Iterator[str]:
     """A line for each lab, with its day, the drills and the quiz of that day; then all, counted."""
-    labs = progress.status()
-    day_width = 1 + max(len(each.lab.outline.day) for each in labs)
-    lab_width = 1 + max(len(each.lab.name) for each in labs)
-    yield _line("day", "drills", "quiz", day_width, "lab")
-    yield _of_day(FIRST_DAY, day_width, how_far_is_the_first_day(labs))
+    yield from _table([*_rows(progress.status())])
+    yield from ("", bar(progress.status()))
+
+
+class StatusRow(NamedTuple):
+    """One line of the table."""
+
+    day: str
+    drills: str
+    quiz: str
+    lab: str
+    how_far: str
+
+
+def _rows(labs: list[LabStatus]) -> Iterator[StatusRow]:
+    yield StatusRow(
+        said("status.column.day", "day"),
+        said("status.column.drills", "drills"),
+        said("status.column.quiz", "quiz"),
+        said("status.column.lab", "lab"),
+        "",
+    )
+    yield _of_day(FIRST_DAY, "", how_far_is_the_first_day(labs))
     day = FIRST_DAY
     for each in labs:
-        told = f"{each.lab.name:{lab_width}}{how_far(each)}"
         if each.lab.outline.day == day:  # its second lab
-            yield _line("", "", "", day_width, told)
+            yield StatusRow("", "", "", each.lab.name, how_far(each))
         else:
-            yield _of_day(day := each.lab.outline.day, day_width, told)
-    yield from ("", bar(labs))
+            yield _of_day(day := each.lab.outline.day, each.lab.name, how_far(each))
 
 
-def _of_day(day: str, day_width: int, told: str) -> str:
-    return _line(day, drills_of(day), best_quiz_of(day), day_width, told)
+def _of_day(day: str, lab: str, told: str) -> StatusRow:
+    return StatusRow(day, drills_of(day), best_quiz_of(day), lab, told)
 
 
-def _line(day: str, drills: str, quiz: str, day_width: int, told: str) -> str:
-    return f"{day:{day_width}}{drills:7}{quiz:6}{told}"
+def _table(rows: list[StatusRow]) -> Iterator[str]:
+    """Each column as wide as what stands in it; what was reached is wrapped in its own."""
+    days, drills, quizzes, labs, _ = zip(*rows, strict=True)
+    at_least = column_of(days), column_of(drills, 7), column_of(quizzes, 6)
+    ends = column_of(labs)
+    for row in rows:
+        line = "".join(map(padded, row[:3], at_least)) + padded(row.lab, ends if row.lab else 0)
+        yield from labelled([LabelledLine(line.rstrip(), row.how_far)], columns_of(line))

@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 
 from ros2_on_pip.errors import OK
-from roslings.typed import program
-from roslings.way import bar, next_lines
+from roslings.commands.way import bar, next_lines
 from roslings.workspace import progress
 
 
@@ -18,5 +17,4 @@ def run(options: argparse.Namespace) -> int:
     """Say what is next."""
     labs = progress.status()
     print("\n".join([bar(labs), "", *next_lines(labs, progress.today())]))
-    print(f"{'All':6}{program()} --help      {program()} status")
     return OK

@@ -1,4 +1,4 @@
-"""The course's own files: days, labs, cards, hints, mutants, graders. Knows no ROS.
+"""The course's own files: days, labs, cards, variants, hints, mutants, graders. Knows no ROS.
 
 The only room that reads them; each mistake in them is told with file and line. The models of a card
 are made when one is first used: `./roslings status` needs none.
@@ -54,9 +54,11 @@ __all__ = [
 _MUTANTS = ("Edit", "Mutant")
 
 
-def __getattr__(name: str) -> Any:
-    """Import the module that holds `name` when it is first asked for (PEP 562)."""
-    if name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    home = "mutants" if name in _MUTANTS else "card"
-    return getattr(import_module(f"{__name__}.{home}"), name)
+if not TYPE_CHECKING:  # else each misspelt name would be one of this module
+
+    def __getattr__(name: str) -> Any:
+        """Import the module that holds `name` when it is first asked for (PEP 562)."""
+        if name not in __all__:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        home = "mutants" if name in _MUTANTS else "card"
+        return getattr(import_module(f"{__name__}.{home}"), name)

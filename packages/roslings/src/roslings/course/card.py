@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import string
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field, RootModel, create_model, field_validator, model_validator
 
 from roslings.capability import capabilities
 from roslings.course.contract import (
     NUMBERS_WITHIN,
+    CardWords,
     Contract,
     Expected,
+    NodeWords,
     Plain,
     Promise,
     Prose,
@@ -99,13 +101,8 @@ class GiveUpContract(Contract):
     exit_code: Annotated[int, Expected]
 
 
-class OwnNodeWords(Contract):
+class NodeContract(NodeWords):
     """One node: its full name, the executable that starts it, and its topics."""
-
-    if TYPE_CHECKING:
-
-        def __getattr__(self, word: str) -> Any:
-            """A word of a capability: which there are is known when a card is read."""
 
     node: Annotated[str, Expected] = Field(pattern=r"^/[A-Za-z_][A-Za-z0-9_/]*$")
     executable: Annotated[str, Kind.KEY]
@@ -139,19 +136,19 @@ class OwnNodeWords(Contract):
         return {each.name: each.value for each in self.constants}[name]
 
 
-def _with_words(name: str, own: type[Contract], others: Iterable[type[Contract] | None]) -> Any:
+def _with_words(own: type[Contract], others: Iterable[type[Contract] | None]) -> type[Contract]:
     """The words that the engine knows, and those of each capability that is here."""
     bases = [own, *(each for each in others if each)]
     bases.reverse()  # pydantic takes the fields of the last one first
-    return create_model(name, __base__=tuple(bases), __module__=__name__, __doc__=own.__doc__)
+    return create_model(
+        own.__name__, __base__=tuple(bases), __module__=__name__, __doc__=own.__doc__
+    )
 
 
 _WORDS = tuple(words for each in capabilities() if (words := each.words_here))
 
-if TYPE_CHECKING:
-    NodeContract = OwnNodeWords
-else:
-    NodeContract = _with_words("NodeContract", OwnNodeWords, (each.node for each in _WORDS))
+if not TYPE_CHECKING:  # to the type checker a node has the engine's words; the others by `of`
+    NodeContract = _with_words(NodeContract, (each.node for each in _WORDS))
 
 
 class PictureContract(Contract):
@@ -176,13 +173,8 @@ class Hints(RootModel[dict[str, Hint]]):
     """The file `hints.yaml`: check's name to its hint."""
 
 
-class OwnCardWords(Contract):
+class Card(CardWords):
     """All that a lab asks for. Points of all checks add up to 100."""
-
-    if TYPE_CHECKING:
-
-        def __getattr__(self, word: str) -> Any:
-            """A word of a capability: which there are is known when a card is read."""
 
     id: Annotated[str, Prose] = Field(pattern=r"^[a-z][a-z0-9-]*$")
     title: Annotated[str, Prose]
@@ -222,7 +214,7 @@ class OwnCardWords(Contract):
         return points
 
     @model_validator(mode="after")
-    def _texts_have_known_fields(self) -> OwnCardWords:
+    def _texts_have_known_fields(self) -> Card:
         for node in self.nodes:
             for log in (node.log, *(outcome.log for outcome in node.outcomes.values())):
                 _allow_fields(log, {"text"})
@@ -244,7 +236,5 @@ def _allow_fields(template: str | None, allowed: set[str]) -> None:
         raise ValueError(f"{template!r} has unknown fields {sorted(fields - allowed)}")
 
 
-if TYPE_CHECKING:
-    Card = OwnCardWords
-else:
-    Card = _with_words("Card", OwnCardWords, (each.card for each in _WORDS))
+if not TYPE_CHECKING:
+    Card = _with_words(Card, (each.card for each in _WORDS))

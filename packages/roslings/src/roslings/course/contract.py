@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -21,6 +21,45 @@ class Contract(BaseModel):
     """A part of the card; an unknown word in it is a mistake, not a comment."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+W = TypeVar("W", bound=Contract)
+N = TypeVar("N", bound="NodeWords")
+C = TypeVar("C", bound="CardWords")
+
+
+class NodeWords(Contract):
+    """Some of the words that a card may say of a node: the engine's own, or a capability's."""
+
+    def of(self, words: type[N]) -> N:
+        """The same node, by the words of a capability. Raises TypeError where nobody brings them.
+
+        >>> LIMITER.of(ParameterWords).parameter("max_speed").default
+        0.5
+        """
+        return _by(self, words, "a node")
+
+
+class CardWords(Contract):
+    """Some of the words that a card may say of the package: the engine's, or a capability's."""
+
+    def of(self, words: type[C]) -> C:
+        """The same card, by the words of a capability. Raises TypeError where nobody brings them.
+
+        >>> CARD.of(LaunchWords).launch.file
+        'launch/bring_up.launch.py'
+        """
+        return _by(self, words, "the package")
+
+
+def _by(said: Contract, words: type[W], what: str) -> W:
+    """Every card has the words of all capabilities that are here: its model is made of them."""
+    if isinstance(said, words):
+        return said
+    raise TypeError(
+        f"no capability that is here brings {words.__name__}, of {words.__module__},"
+        f" to what a card says of {what}"
+    )
 
 
 class RateContract(Contract):

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roslings.course.files import NoSuchLab, read_tree, read_yaml, text_of
-from roslings.course.outline import Outline, outline_as_written, outline_in
-from roslings.course_folder import engine_root, root
-from roslings.lab_folders import GRADER, GRADERS, folder_beside
+from roslings.course.outline import LabOutline, outline_as_written, outline_in
+from roslings.folders.course_folder import engine_root, root
+from roslings.folders.lab_folders import GRADER, GRADERS, folder_beside
 
 if TYPE_CHECKING:
     from roslings.course.card import Card, Hint
@@ -63,13 +63,13 @@ class Lab:
         return frozenset(hidden_points(self.hidden, read_yaml(self.folder / "card.yaml", Card)))
 
     @cached_property
-    def outline(self) -> Outline:
+    def outline(self) -> LabOutline:
         """What the card says of the lab as a whole. Raises BadCourseFile."""
         file = self.folder / "card.yaml"
         if plain := outline_as_written(text_of(file)) or outline_in(read_tree(file)):
             return plain
         card = self.card  # says what is wrong, and where
-        return Outline(card.title, card.day, card.needs, card.package)
+        return LabOutline(card.title, card.day, card.needs, card.package)
 
     @property
     def graders(self) -> tuple[Path, ...]:

@@ -26,7 +26,7 @@ PACKAGE = r"^[a-z][a-z0-9_]*$"
 
 
 @dataclass(frozen=True)
-class Outline:
+class LabOutline:
     """What a lab is called, when it comes, and which package it asks for; as in `Card`."""
 
     title: str
@@ -35,7 +35,7 @@ class Outline:
     package: str
 
 
-def outline_as_written(card: str) -> Outline | None:
+def outline_as_written(card: str) -> LabOutline | None:
     """The outline in the lines of a card; None where one of them is not written as usual."""
     texts, lists = TEXT.findall(card), NAMES.findall(card)
     found, needs = dict(texts), [name for names in lists for name in re.split(", *", names)]
@@ -43,20 +43,22 @@ def outline_as_written(card: str) -> Outline | None:
         return None
     if NO_TEXTS & {text.lower() for text in (*found.values(), *needs)}:
         return None
-    outline = Outline(found["title"], found["day"], tuple(needs), found["package"])
+    outline = LabOutline(found["title"], found["day"], tuple(needs), found["package"])
     return outline if _holds(outline) else None
 
 
-def outline_in(tree: Any) -> Outline | None:
+def outline_in(tree: Any) -> LabOutline | None:
     """The outline in what YAML reads from a card; None where a card would not be like this."""
     try:
-        found = Outline(tree["title"], tree["day"], tuple(tree.get("needs") or ()), tree["package"])
+        found = LabOutline(
+            tree["title"], tree["day"], tuple(tree.get("needs") or ()), tree["package"]
+        )
     except (AttributeError, KeyError, TypeError):
         return None
     return found if _holds(found) else None
 
 
-def _holds(found: Outline) -> bool:
+def _holds(found: LabOutline) -> bool:
     texts = (found.title, found.day, found.package, *found.needs)
     return all(isinstance(text, str) for text in texts) and bool(
         re.match(DAY, found.day) and re.match(PACKAGE, found.package)

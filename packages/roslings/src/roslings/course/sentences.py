@@ -32,7 +32,7 @@ _END = re.compile(r"""[.!?:]["'`*)]*(?=\s+["'`*(]*[A-Z`])|$""")
 
 
 @dataclass(frozen=True)
-class Sentence:
+class TaskSentence:
     """From here to there in the text of its passage."""
 
     start: int
@@ -50,15 +50,15 @@ class Passage:
     in_the_steps: bool = False
 
     @cached_property
-    def sentences(self) -> tuple[Sentence, ...]:
+    def sentences(self) -> tuple[TaskSentence, ...]:
         """The sentences, in order."""
         return tuple(self._sentences())
 
-    def _sentences(self) -> Iterator[Sentence]:
+    def _sentences(self) -> Iterator[TaskSentence]:
         start = 0
         for end in (found.end() for found in _END.finditer(self.text)):
             if said := self.text[start:end].strip():
-                yield Sentence(end - len(said), end, self._asks(said))
+                yield TaskSentence(end - len(said), end, self._asks(said))
             start = end
 
     def _asks(self, said: str) -> bool:

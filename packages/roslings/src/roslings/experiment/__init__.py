@@ -1,13 +1,14 @@
 """Run a grader's experiments on a package, and bring back the evidence.
 
-`measure(...)` is called in the command's own process; the work is done in a second process,
-behind the wall that the machine allows, so that no fault in there reaches the command.
+`measure(...)` is called in the command's own process. The work is done in a second process, behind
+the wall that the machine allows, so that no fault in there reaches the command.
 """
 
+from roslings.course.grader import Experiment, experiment, experiments_of
 from roslings.experiment.measure import (
-    Choices,
-    Measuring,
     MeasuringFailed,
+    MeasuringOptions,
+    MeasuringProcess,
     measure,
     measuring_process,
 )
@@ -16,13 +17,12 @@ from roslings.experiment.scene import Scene
 from roslings.experiment.slips import mending
 from roslings.experiment.unobserved import Unobserved
 from roslings.experiment.walls import NoWall, insist_on_wall
-from roslings.grader import Experiment, experiment, experiments_of
 
 __all__ = [
-    "Choices",
     "Experiment",
-    "Measuring",
     "MeasuringFailed",
+    "MeasuringOptions",
+    "MeasuringProcess",
     "NoWall",
     "Run",
     "Scene",

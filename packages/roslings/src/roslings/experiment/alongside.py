@@ -9,8 +9,8 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from types import TracebackType
 
+from roslings.course.grader import Experiment
 from roslings.evidence import ExperimentSeen
-from roslings.grader import Experiment
 
 MOST_AT_ONCE = 8
 """Waiting costs little, but each has nodes, and those take memory."""

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
-from roslings.arena import Place, Sandbox, User, Wall
+from roslings.arena import ArenaPlace, Sandbox, User, Wall
 from roslings.arena.users import give, let_in
+from roslings.course.grader import Clock
 from roslings.evidence import HeldBy, PackageSeen
-from roslings.grader import Clock
 
 
 class Assignment(BaseModel):
@@ -40,7 +40,7 @@ class Assignment(BaseModel):
     """A grader's file that students do not have; its experiments are run as well."""
     builds: Path | None = None
     """Where builds are shared between packages of equal content."""
-    builds_as_kin: bool = False
+    builds_from_cache: bool = False
     """Whether packages that differ in their modules alone share the work, too."""
 
     def source_of(self, package: PackageSeen) -> Path:
@@ -90,10 +90,10 @@ class Assignment(BaseModel):
         return self.theirs / "room"
 
     @property
-    def place(self) -> Place:
+    def place(self) -> ArenaPlace:
         """Where the nodes live: in the room that the measuring process was put into."""
         around = replace(self.sandbox, terminals=True) if self.sandbox else None
-        return Place(self.wall, self.home, self.devices, around, user=self.user)
+        return ArenaPlace(self.wall, self.home, self.devices, around, user=self.user)
 
     def make_folders(self) -> None:
         """Those that all of this needs. Raises OSError."""

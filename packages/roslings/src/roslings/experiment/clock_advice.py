@@ -2,7 +2,7 @@
 
 That a run was not believed tells nothing of the node: the computer may be slow, or the experiment
 belongs on the wall. Whether a node goes by real time is measured in two runs. By real time it has a
-rate; in the simulated run it sent as many messages as that rate makes of the real seconds, and
+rate. In the simulated run it sent as many messages as that rate makes of the real seconds. That is
 clearly not as many as it makes of the simulated ones.
 """
 
@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 from ros2_on_pip.rates import NS_PER_S, measure_rate
 from roslings.evidence import Endpoint, Evidence, ExperimentSeen, MessageSeen, ProcessSeen
-from roslings.exits import is_outlived, tracebacks
 from roslings.experiment.simulated import clock_publishers
+from roslings.seen.exits import is_outlived, tracebacks
 
 AT_ONCE = 1
 """A timer speaks once when the clock first moves, however far."""
@@ -83,7 +83,7 @@ def _publishers(seen: ExperimentSeen, topic: str) -> list[Endpoint]:
 
 
 @dataclass(frozen=True)
-class Span:
+class SimulatedSpan:
     """A stretch of a run in simulated time, and the messages that came in it."""
 
     count: int
@@ -91,14 +91,14 @@ class Span:
     simulated_s: float
 
 
-def _span(seen: ExperimentSeen, messages: Sequence[MessageSeen]) -> Span:
+def _span(seen: ExperimentSeen, messages: Sequence[MessageSeen]) -> SimulatedSpan:
     """From the first step of the clock, or the first message before it, to the last of both.
 
     While the clock stands still, no simulated time goes by.
     """
     moments_ns = [message.arrival_ns for message in messages]
     moments_ns += [seen.ticks[0].at_ns, seen.ticks[-1].at_ns]
-    return Span(
+    return SimulatedSpan(
         count=max(0, len(messages) - AT_ONCE),
         real_s=(max(moments_ns) - min(moments_ns)) / NS_PER_S,
         simulated_s=(seen.ticks[-1].sim_ns - seen.ticks[0].sim_ns) / NS_PER_S,

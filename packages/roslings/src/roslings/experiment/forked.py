@@ -2,9 +2,9 @@
 
 It has a session of its own: Ctrl-C in the terminal reaches the command alone, which then asks the
 process to end in order. It works in the run's folder, not in the student's: a file `random.py`
-there would be imported in Python's place. Whoever forks must have no threads of its own,
-and must never have made a node: in the fork, the middleware would be there without its threads, and
-would see nobody.
+there would be imported in Python's place. Whoever forks must have no threads of its own, and must
+never have made a node. In the fork, the middleware would be there without its threads, and would
+see nobody.
 """
 
 from __future__ import annotations
@@ -27,27 +27,27 @@ class Fork:
     def __init__(self, assignment: Assignment, walls: Isolation, errors: int) -> None:
         """Its last words go into the file of the descriptor `errors`."""
         steps, told = os.pipe()
-        heard, voice = os.pipe()
-        words = (os.getpid(), assignment, walls, (heard, told, errors), (steps, voice))
+        heard, write_end = os.pipe()
+        words = (os.getpid(), assignment, walls, (heard, told, errors), (steps, write_end))
         self._process = get_context("fork").Process(target=_live, args=words)
         self._process.start()
         os.close(told)
         os.close(heard)
-        self._voice = open(voice, "w", encoding="utf-8")  # noqa: PTH123, SIM115
+        self._to_child = open(write_end, "w", encoding="utf-8")  # noqa: PTH123, SIM115
         self.stdout = open(steps, encoding="utf-8")  # noqa: PTH123, SIM115
         """A line of text a step."""
 
     def tell(self, package: str) -> None:
         """Say what stands in the package's files, as JSON: it is built from now on."""
         with suppress(BrokenPipeError):  # it is gone, and its last words tell why
-            self._voice.write(package)
-            self._voice.close()
+            self._to_child.write(package)
+            self._to_child.close()
 
     def close(self) -> None:
         """Close our ends of what joins us with it."""
         self.stdout.close()
         with suppress(BrokenPipeError):
-            self._voice.close()
+            self._to_child.close()
 
     def poll(self) -> int | None:
         """Its status; None while it runs."""

@@ -11,12 +11,12 @@ from pathlib import Path
 
 from ros2_on_pip.errors import INCONCLUSIVE, RoslingsError
 from roslings.arena import Isolation, choose_isolation, isolation_for_strangers
+from roslings.course.grader import Clock
 from roslings.evidence import Evidence, PackageSeen
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.forked import Fork
 from roslings.experiment.run_folder import run_folder
 from roslings.experiment.walls import closed_places
-from roslings.grader import Clock
 from roslings.workspace.errors import DiskFull
 from roslings.workspace.student import stage
 
@@ -38,7 +38,7 @@ class MeasuringFailed(RoslingsError):
 
 
 @dataclass(frozen=True)
-class Choices:
+class MeasuringOptions:
     """How to measure."""
 
     seed: int
@@ -52,7 +52,7 @@ class Choices:
     """A grader's file that students do not have."""
     builds: Path | None = None
     """A folder in which packages of equal content share one build."""
-    builds_as_kin: bool = False
+    builds_from_cache: bool = False
     """Whether those that differ in their modules alone do, too: for a lab's own packages."""
     strangers: bool = False
     """Whether somebody else's package is graded: then the wall for strangers' code is taken."""
@@ -64,7 +64,7 @@ class Choices:
     """Whether nothing else is made."""
 
 
-class Measuring:
+class MeasuringProcess:
     """A measuring process that has begun, and waits for the package that it is to measure."""
 
     def __init__(self, assignment: Assignment, walls: Isolation, process: Fork) -> None:
@@ -102,7 +102,7 @@ class Measuring:
 
 
 @contextmanager
-def measuring_process(lab: str, choices: Choices) -> Iterator[Measuring]:
+def measuring_process(lab: str, choices: MeasuringOptions) -> Iterator[MeasuringProcess]:
     """A measuring process behind the machine's best wall; it ends with the block.
 
     It is a fork: begin before this process has threads.
@@ -122,7 +122,7 @@ def measuring_process(lab: str, choices: Choices) -> Iterator[Measuring]:
             hidden=choices.hidden,
             user=user,
             builds=None if user else choices.builds,
-            builds_as_kin=choices.builds_as_kin,
+            builds_from_cache=choices.builds_from_cache,
             for_others=choices.for_others,
             only_soak=choices.only_soak,
             soak_s=0.0 if choices.port else choices.soak_s,
@@ -131,15 +131,19 @@ def measuring_process(lab: str, choices: Choices) -> Iterator[Measuring]:
         with assignment.errors.open("wb") as errors:
             fork = Fork(assignment, walls, errors.fileno())
         with _ended(fork) as process:
-            yield Measuring(assignment, walls, process)
+            yield MeasuringProcess(assignment, walls, process)
         if choices.bags is not None and assignment.bags.is_dir():
             shutil.copytree(assignment.bags, choices.bags)
 
 
 def measure(
-    lab: str, package: Path, seen: PackageSeen, choices: Choices, on_step: Callable[[str], None]
+    lab: str,
+    package: Path,
+    seen: PackageSeen,
+    choices: MeasuringOptions,
+    on_step: Callable[[str], None],
 ) -> Evidence:
-    """Begin to measure, and measure the package at `package`, as `Measuring` does."""
+    """Begin to measure, and measure the package at `package`, as `MeasuringProcess` does."""
     with measuring_process(lab, choices) as begun:
         return begun.measure(package, seen, on_step)
 

@@ -16,17 +16,17 @@ from dataclasses import dataclass, field, replace
 from types import FrameType
 from typing import Literal
 
-from roslings.arena import CannotStart, Installed, Place, opened, ros_environment
+from roslings.arena import ArenaPlace, CannotStart, Installed, opened, ros_environment
 from roslings.course import Card, lab
+from roslings.course.grader import Experiment, experiments_of, load_grader
 from roslings.evidence import (
     BuildSeen,
     Evidence,
     ExperimentSeen,
+    GradingSpan,
     PackageSeen,
-    Span,
     evidence_json,
 )
-from roslings.exits import must_end_again, simulated_life_s
 from roslings.experiment.alongside import MOST_AT_ONCE, Alongside
 from roslings.experiment.assignment import Assignment
 from roslings.experiment.clock_advice import advice_on_clocks, note_who_ignores_the_clock
@@ -40,12 +40,12 @@ from roslings.experiment.soaking import SOAKING, Soak, soaking
 from roslings.experiment.turns import Turns
 from roslings.experiment.unobserved import Unobserved
 from roslings.experiment.watching import ENDED
-from roslings.grader import Experiment, experiments_of, load_grader
 from roslings.probe import Probe
 from roslings.probe.bag import fresh_folder, write_bag
-from roslings.probe.budget import GRADING_BYTES, LARGE_BYTES, Budget
-from roslings.probe.ear import ALL_QUEUES_BYTES
-from roslings.timeline import noted
+from roslings.probe.budget import GRADING_BYTES, LARGE_BYTES, ByteBudget
+from roslings.probe.raw_subscription import ALL_QUEUES_BYTES
+from roslings.seen.exits import must_end_again, simulated_life_s
+from roslings.seen.timeline import noted
 from roslings.workspace.build import BuildRoom, build
 from roslings.workspace.shared_build import shared_build
 from roslings_rover.errors import DeviceTrouble
@@ -59,7 +59,7 @@ MOST_RUNS = 3
 """A busy computer is given two more chances; then the verdict is inconclusive."""
 
 
-class Stopped(BaseException):
+class MeasuringStopped(BaseException):
     """The command wants this process to end: leave every block, and end what it started."""
 
 
@@ -75,7 +75,7 @@ def carry_out(assignment: Assignment, package: PackageSeen) -> None:
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
-    raise Stopped
+    raise MeasuringStopped
 
 
 def measure_here(assignment: Assignment, package: PackageSeen) -> Evidence:
@@ -83,7 +83,7 @@ def measure_here(assignment: Assignment, package: PackageSeen) -> Evidence:
     task = lab(assignment.lab, assignment.hidden)
     if assignment.for_others:
         load_beforehand(assignment.lab, assignment.hidden)  # nothing a build does can change it
-    timeline: list[Span] = []
+    timeline: list[GradingSpan] = []
     say(f"Building {package.name} with colcon")
     with noted(timeline, "building", package.name):
         seen, installed = _build(assignment, package, task.card.builds_within_s)
@@ -97,7 +97,7 @@ def measure_here(assignment: Assignment, package: PackageSeen) -> Evidence:
     if installed:
         paced = carries_pictures(task.card)
         os.environ.update(ros_environment(assignment.wall, paced))
-        stage = Stage(installed, assignment, task.card.ends_within_s, timeline, paced)
+        stage = MeasuringContext(installed, assignment, task.card.ends_within_s, timeline, paced)
         declared = [
             each
             for file in task.graders
@@ -113,7 +113,7 @@ def measure_here(assignment: Assignment, package: PackageSeen) -> Evidence:
     return evidence
 
 
-def _soak(stage: Stage, card: Card) -> Soak | None:
+def _soak(stage: MeasuringContext, card: Card) -> Soak | None:
     """What runs on in real time beside the experiments, where that was asked for."""
     for_s = stage.assignment.soak_s
     if not (for_s and any(node.stays for node in card.nodes)):
@@ -122,7 +122,7 @@ def _soak(stage: Stage, card: Card) -> Soak | None:
 
 
 def _carry_out(
-    stage: Stage, declared: Sequence[Experiment], evidence: Evidence, soak: Soak | None
+    stage: MeasuringContext, declared: Sequence[Experiment], evidence: Evidence, soak: Soak | None
 ) -> None:
     """All experiments, and what runs on beside them; the evidence has them in their order."""
     with soaking(soak) as soaked:
@@ -134,7 +134,9 @@ def _carry_out(
             evidence.soak = soaked.result()
 
 
-def run_all(stage: Stage, declared: Sequence[Experiment]) -> dict[str, list[ExperimentSeen]]:
+def run_all(
+    stage: MeasuringContext, declared: Sequence[Experiment]
+) -> dict[str, list[ExperimentSeen]]:
     """All runs of each experiment, side by side; the one to be believed comes last.
 
     What is doubtful is made once more, when all are over.
@@ -199,8 +201,8 @@ def _build(
     """Meanwhile, what the experiments need is loaded: colcon has a processor of its own."""
     source, place = assignment.source_of(package), assignment.place
     if assignment.builds:
-        kin = assignment.builds_as_kin
-        return shared_build(assignment.builds, source, assignment.room, place, within_s, kin)
+        from_cache = assignment.builds_from_cache
+        return shared_build(assignment.builds, source, assignment.room, place, within_s, from_cache)
     alone = BuildRoom(assignment.room, package.name)
     shutil.copytree(source, alone.source, symlinks=True)
     load = functools.partial(load_beforehand, assignment.lab, assignment.hidden)
@@ -208,13 +210,13 @@ def _build(
 
 
 @dataclass(frozen=True)
-class Stage:
+class MeasuringContext:
     """What every experiment of one package works with."""
 
     installed: Installed
     assignment: Assignment
     ends_within_s: float
-    timeline: list[Span] = field(default_factory=list)
+    timeline: list[GradingSpan] = field(default_factory=list)
     """What was done when."""
     paced: bool = False
     """Whether its messages are larger than the network's buffers."""
@@ -222,9 +224,9 @@ class Stage:
     """Those that watch now."""
     turns: Turns = field(default_factory=Turns)
     absences: Absences = field(default_factory=Absences)
-    keeps: Budget = field(default_factory=lambda: Budget(GRADING_BYTES))
+    keeps: ByteBudget = field(default_factory=lambda: ByteBudget(GRADING_BYTES))
     """What the evidence of all experiments may take."""
-    queues: Budget = field(default_factory=lambda: Budget(ALL_QUEUES_BYTES))
+    queues: ByteBudget = field(default_factory=lambda: ByteBudget(ALL_QUEUES_BYTES))
     """What the middleware may hold for those that watch now."""
 
     @property
@@ -233,7 +235,7 @@ class Stage:
         return MOST_AT_ONCE if self.assignment.port is None else 1
 
     @property
-    def place(self) -> Place:
+    def place(self) -> ArenaPlace:
         """Where the nodes of each experiment live."""
         return replace(self.assignment.place, paced=self.paced)
 

@@ -1,8 +1,8 @@
 """Trouble of the middleware itself, which is nobody's mistake in a package.
 
-Seen once in some thousand gradings, without a wall and at load 13: Fast DDS could not lock the
-shared memory of a port that another grading had just left (`[RTPS_TRANSPORT_SHM Error] Failed
-init_port ... open_and_lock_file failed`); its node then ran, and nobody could see it.
+It was seen once in some thousand gradings, without a wall and at load 13. Fast DDS could not lock
+the shared memory of a port that another grading had just left (`[RTPS_TRANSPORT_SHM Error] Failed
+init_port ... open_and_lock_file failed`). Its node then ran, and nobody could see it.
 """
 
 from __future__ import annotations

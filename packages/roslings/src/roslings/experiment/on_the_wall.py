@@ -16,7 +16,7 @@ from roslings.course import RateContract
 from roslings.evidence import CanarySeen, Endpoint, ExperimentSeen
 from roslings.experiment.turns import Turns
 from roslings.probe import Probe, canary
-from roslings.rates import held_s, own_rate
+from roslings.seen.rates import held_s, own_rate
 
 FIRST_MESSAGE_WITHIN_S = 10.0
 CANARY_WITHIN_S = 20.0

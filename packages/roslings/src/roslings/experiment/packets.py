@@ -1,6 +1,6 @@
 """What the student's nodes say to each other, read from the packets on this computer's loopback.
 
-Nothing of ours is in their domain, so a node cannot know that somebody reads along; and a node that
+Nothing of ours is in their domain, so a node cannot know that somebody reads along. A node that
 writes what it never heard is found out. The kernel hands over a copy of each packet (packet(7)).
 Writers make their topics known in announcements, and samples name their writer (DDSI-RTPS 9.4.5,
 9.6.3).
@@ -15,7 +15,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from ros2_on_pip.rtps import DATA, DATA_FRAGMENT, PREFIX, Part, parameters_in, parts_in, ports_of
+from ros2_on_pip.rtps import (
+    DATA,
+    DATA_FRAGMENT,
+    PREFIX,
+    Submessage,
+    parameters_in,
+    parts_in,
+    ports_of,
+)
 
 LOOPBACK = "lo"
 EVERY_PROTOCOL = 0x0003
@@ -57,7 +65,7 @@ class Sample:
 
 
 @dataclass
-class Heard:
+class SentSamples:
     """What was sent by the programs' own writers."""
 
     topics: dict[bytes, str] = field(default_factory=dict)
@@ -84,7 +92,7 @@ class Tap:
 
     def __init__(self, source: socket.socket, domain: int) -> None:
         self._source, self._domain = source, domain
-        self._heard, self._lock, self._over = Heard(), threading.Lock(), threading.Event()
+        self._heard, self._lock, self._over = SentSamples(), threading.Lock(), threading.Event()
         self._thread = threading.Thread(target=self._read, daemon=True, name="packets")
         self._thread.start()
 
@@ -172,7 +180,7 @@ def samples_in(message: bytes) -> Iterator[Sample]:
             yield _sample(message[PREFIX], part)
 
 
-def _sample(participant: bytes, part: Part) -> Sample:
+def _sample(participant: bytes, part: Submessage) -> Sample:
     body, order = part.body, part.order
     high, low = struct.unpack(f"{order}iI", body[12:20])
     (skipped,) = struct.unpack(f"{order}H", body[2:4])

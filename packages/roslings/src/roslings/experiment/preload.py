@@ -10,7 +10,7 @@ from pathlib import Path
 
 from roslings.arena import choose_isolation, ros_environment
 from roslings.course import lab
-from roslings.grader import load_grader
+from roslings.course.grader import load_grader
 from roslings.probe.preload import load_ros
 
 TYPES = re.compile(r'"(\w+/(?:msg|srv|action)/\w+)"')

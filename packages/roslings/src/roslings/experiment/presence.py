@@ -62,11 +62,11 @@ class Absences:
         return (frozenset(executables), what) in self._known - self._came
 
 
-class Turn:
+class CallbackTurn:
     """Whether a node has run the callbacks of all that came before; asked, never waited for."""
 
     def __init__(self, probe: Probe, node: str) -> None:
-        self._barrier = Barrier(probe.eye, [node])
+        self._barrier = Barrier(probe.node, [node])
         self._sent = self._over = False
 
     def is_over(self) -> bool:
@@ -88,7 +88,7 @@ class Presence:
     arena: Arena
     absences: Absences
     simulated: bool = False
-    _turns: dict[str, Turn] = field(default_factory=dict)
+    _turns: dict[str, CallbackTurn] = field(default_factory=dict)
     _size: tuple[int, int, int] = (-1, 0, 0)
     _complete: bool = False
     _since: OwnTime = field(init=False)
@@ -146,9 +146,9 @@ class Presence:
     def _all_turned(self, nodes: Sequence[str]) -> bool:
         return all([self._turn_of(node).is_over() for node in nodes])
 
-    def _turn_of(self, node: str) -> Turn:
+    def _turn_of(self, node: str) -> CallbackTurn:
         if node not in self._turns:
-            self._turns[node] = Turn(self.probe, node)
+            self._turns[node] = CallbackTurn(self.probe, node)
         return self._turns[node]
 
 

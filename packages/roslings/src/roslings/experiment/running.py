@@ -126,7 +126,7 @@ class Running(Stage):
     def _let_rest(self, process: Process) -> None:
         """Wait until it waits, as a node mostly does when somebody presses Ctrl-C.
 
-        In the middle of a callback Python can hear Ctrl-C before rclpy does: then a second
+        In the middle of a callback Python can hear Ctrl-C before rclpy does. Then a second
         shutdown() is the first, and one mistake in fifty is not seen on a busy computer.
         """
         end_s, looks = time.monotonic() + RESTS_WITHIN_S, 0

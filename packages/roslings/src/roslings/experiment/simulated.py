@@ -1,9 +1,9 @@
 """Watching a node in simulated time, and whether what was seen there may be believed.
 
-A node that follows /clock is as fast as the clock: 20 s of its time cost less than one, and no
-load bends its rate. But the clock lies about a node that sleeps or has a thread of its own, and
-about one that works longer than it has time for. So the same stretch is watched twice, with other
-steps and at another speed: what really follows the clock does the same both times.
+A node that follows /clock is as fast as the clock. 20 s of its time cost less than one, and no load
+bends its rate. But the clock lies about a node that sleeps or has a thread of its own. It lies,
+too, about one that works longer than it has time for. So the same stretch is watched twice, with
+other steps and at another speed: what really follows the clock does the same both times.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from roslings.course import RateContract
 from roslings.evidence import ExperimentSeen, MessageSeen, Segment
 from roslings.probe import Probe
 from roslings.probe.clock import Barrier, SimClock
-from roslings.rates import in_segment, measure_simulated_rate, place_on_ticks
+from roslings.seen.rates import in_segment, measure_simulated_rate, place_on_ticks
 
 FIRST_PERIODS, SECOND_PERIODS = 14, 10
 FIRST_STEPS, SECOND_STEPS = 5, 8
@@ -253,5 +253,5 @@ def clock_publishers(seen: ExperimentSeen) -> list[str]:
 
 def _all_follow(seen: ExperimentSeen, node_names: Sequence[str], clock: SimClock) -> bool:
     ends = seen.graph.endpoints
-    ears = {e.node for e in ends if e.topic == "/clock" and e.kind == "subscription"}
-    return ears >= set(node_names) and clock.listeners >= len(set(node_names))
+    subscribers = {e.node for e in ends if e.topic == "/clock" and e.kind == "subscription"}
+    return subscribers >= set(node_names) and clock.listeners >= len(set(node_names))

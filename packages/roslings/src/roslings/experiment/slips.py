@@ -5,7 +5,7 @@ from __future__ import annotations
 from ros2_on_pip.near_names import Near, nearest
 from roslings.course import NodeContract
 from roslings.evidence import ExperimentSeen
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 
 
 def mending(node: NodeContract, seen: ExperimentSeen) -> list[str]:

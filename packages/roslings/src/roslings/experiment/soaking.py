@@ -13,7 +13,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from time import monotonic
 
-from roslings.arena import Arena, Installed, Place, Process, opened
+from roslings.arena import Arena, ArenaPlace, Installed, Process, opened
 from roslings.capability import Plain, capabilities
 from roslings.course import Card, NodeContract
 from roslings.evidence import SoakSeen
@@ -33,7 +33,7 @@ class Soak:
 
     card: Card
     installed: Installed
-    place: Place
+    place: ArenaPlace
     turns: Turns
     for_s: float
     over: threading.Event = field(default_factory=threading.Event)
@@ -90,7 +90,7 @@ def soaking(soak: Soak | None) -> Iterator[Future[SoakSeen] | None]:
 
 def beside(node: NodeContract, card: Card, arena: Arena, running: ExitStack) -> Start:
     """How a node is started: with the devices that it needs, which end when `running` does."""
-    lent: dict[str, Plain] = {}
+    parameters: dict[str, Plain] = {}
     for each in capabilities():
-        lent |= each.companions_of(node, card, arena, running)
-    return Start(parameters=lent) if lent else PLAIN
+        parameters |= each.companions_of(node, card, arena, running)
+    return Start(parameters=parameters) if parameters else PLAIN

@@ -9,7 +9,7 @@ from roslings.experiment.missed import hears
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.sentences import sentence_by
 from roslings.experiment.stage import Stage
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 
 HEARD_WITHIN_S = 10.0
 AFTER_THE_TURN_S = 1.0

@@ -10,12 +10,12 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 from roslings.arena import LONGEST_WAIT_S, Arena, Process
-from roslings.evidence import ExperimentSeen, Part, Span
+from roslings.evidence import ExperimentSeen, GradingSpan, Part
 from roslings.experiment.own_time import PATIENCE_S, OwnTime
-from roslings.experiment.presence import GRACE_S, Absences, Presence, Turn
+from roslings.experiment.presence import GRACE_S, Absences, CallbackTurn, Presence
 from roslings.experiment.turns import Turns
 from roslings.probe import Probe
-from roslings.timeline import noted
+from roslings.seen.timeline import noted
 
 BELIEVES_AFTER_S = 3.0
 """Of a node's own time: then what another experiment has missed is not waited for here either."""
@@ -32,13 +32,13 @@ class Stage:
         ends_within_s: float,
         port: Path | None = None,
         turns: Turns | None = None,
-        timeline: list[Span] | None = None,
+        timeline: list[GradingSpan] | None = None,
         absences: Absences | None = None,
     ) -> None:
         """The clock is the one that `probe.seen` names; `port` leads to a real board.
 
-        `turns` are those that it takes with the experiments beside it, `absences` what one of
-        them has waited for in vain; what it does is noted in `timeline`.
+        `turns` are those that it takes with the experiments beside it. `absences` are what one of
+        them has waited for in vain. What it does is noted in `timeline`.
         """
         self.port = port
         self._turns = turns or Turns()
@@ -71,7 +71,7 @@ class Stage:
 
     @property
     def probe(self) -> Probe:
-        """The eyes and the voice, for what this class has no word for."""
+        """The node that watches and speaks, for what this class has no word for."""
         return self._probe
 
     def busy(self) -> AbstractContextManager[None]:
@@ -103,7 +103,7 @@ class Stage:
 
     def turned(self, node: str, within_s: float) -> bool:
         """Wait until a node has run the callbacks of all that came; `within_s` of its own time."""
-        turn = Turn(self._probe, node)
+        turn = CallbackTurn(self._probe, node)
         return self.until_own(turn.is_over, within_s)
 
     def until_own(self, condition: Callable[[], bool], within_s: float) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from roslings.evidence import HeldUp
+from roslings.evidence import HeldUpSeen
 from roslings.experiment.own_time import OwnTime
 from roslings.experiment.scene import Scene
 
@@ -33,10 +33,10 @@ def accounting(scene: Scene, part: str) -> Iterator[None]:
         seen.stall_s = max(seen.stall_s, before_s)
 
 
-def _worse(before: HeldUp | None, cpu_wait_s: float, stall_s: float) -> HeldUp:
+def _worse(before: HeldUpSeen | None, cpu_wait_s: float, stall_s: float) -> HeldUpSeen:
     """What several stretches of one name say together."""
     if before is None:
-        return HeldUp(cpu_wait_s=cpu_wait_s, stall_s=stall_s)
-    return HeldUp(
+        return HeldUpSeen(cpu_wait_s=cpu_wait_s, stall_s=stall_s)
+    return HeldUpSeen(
         cpu_wait_s=max(before.cpu_wait_s, cpu_wait_s), stall_s=max(before.stall_s, stall_s)
     )

@@ -1,8 +1,8 @@
 """An experiment without a probe: nothing of ours joins the domain, so nobody can behave for it.
 
-What the nodes did there is read from what the student's own listener writes, and from the packets
-between the two, where the kernel shows them. It is made only where the result is for others: a
-student's own check needs no such proof.
+What the nodes did there is read from what the student's own listener writes. Where the kernel shows
+them, the packets between the two are read as well. It is made only where the result is for others:
+a student's own check needs no such proof.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from roslings.evidence import ExperimentSeen
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S, LONGEST_PERIODS
 from roslings.experiment.packets import Tap
 from roslings.experiment.start import PLAIN
-from roslings.log_rates import hz_of, is_often, written_ns
+from roslings.seen.log_rates import hz_of, is_often, written_ns
 
 MOST_LINES = 10
 """After so many that are too slow their pace is known."""

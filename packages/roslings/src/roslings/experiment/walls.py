@@ -35,9 +35,9 @@ class NoWall(RoslingsError):
 def wall_for(lab: Lab, *others_work: Path) -> Isolation:
     """The best wall there is for submissions to `lab`; its `lack` says where none holds them.
 
-    Another user sees the disk as everybody does, or what the kernel lets it reach: what shows the
-    answers there must be closed, in other copies of the course too, and so must the folders with
-    other submissions and their grades.
+    Another user sees the disk as everybody does, or what the kernel lets it reach. What shows the
+    answers there must be closed, in other copies of the course too. So must the folders with other
+    submissions and their grades.
     """
     wall = isolation_for_strangers()
     if wall.wall != "user" or wall.lack:
@@ -91,7 +91,7 @@ def _open_copies_in(place: str) -> Iterator[Path]:
 def copies_of_the_course() -> Iterator[Path]:
     """Clones where another user could look, as far as they lie open.
 
-    Where the kernel confines such a user, that is where every user may leave files; else the
+    Where the kernel confines such a user, that is where every user may leave files. Else it is the
     whole disk, down to where clones lie, and the system's own folders excepted.
     """
     places = OPEN_TO_ALL if landlock_version() else WHOLE_DISK

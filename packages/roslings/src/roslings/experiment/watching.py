@@ -17,8 +17,8 @@ from roslings.experiment.simulated import (
     let_pass,
 )
 from roslings.experiment.stage import Stage
-from roslings.matching import nearest_endpoint
 from roslings.probe.recorder import can_record
+from roslings.seen.matching import nearest_endpoint
 
 CONNECTS_WITHIN_S = 3.0
 ENDED = "it ended by itself there"
@@ -27,7 +27,7 @@ FIRST_PERIODS = 3
 SILENT_PERIODS = 10
 """Who says nothing for so many periods in real time is silent, and not only slow or in groups.
 
-Of whom many periods of robot time went by in silence, QUIET_PERIODS of real time tell the rest: no
+Of whom many periods of robot time went by in silence, QUIET_PERIODS of real time tell the rest. No
 timer of it speaks, so only a thread of its own could.
 """
 QUIET_PERIODS = 2.5

@@ -26,10 +26,10 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import IO, cast
 
-from roslings.hand_in.errors import PACK_AGAIN, HostileArchive, Refused
+from roslings.hand_in.errors import PACK_AGAIN, HandInRefused, HostileArchive
 from roslings.workspace.errors import writing
-from roslings.workspace.file_kinds import UNKNOWN, Kind, kind_of
-from roslings.workspace.sources import Limits, size
+from roslings.workspace.file_kinds import UNKNOWN, FileKind, kind_of
+from roslings.workspace.sources import PackageLimits, size
 
 SUFFIXES = (".zip", ".tar", ".tar.gz", ".tgz", ".tar.xz", ".txz", ".tar.bz2", ".tbz2")
 CHUNK_BYTES = 64 * 1024
@@ -42,8 +42,8 @@ ENCRYPTED, NAME_IS_UTF8 = 0x1, 0x800
 CLUTTER = frozenset({"__macosx", "thumbs.db", "desktop.ini"})
 """What Windows and macOS add by themselves, in small letters; so are files that begin with `._`."""
 OF_CONTENT = (None, errno.EINVAL)
-"""Numbers of errors that an archive itself makes, not the disk: what bz2 cannot read has none, and
-where an entry is said to begin before the file, there is no such place."""
+"""Numbers of errors that an archive itself makes, not the disk. What bz2 cannot read has none.
+Where an entry is said to begin before the file, there is no such place."""
 BROKEN = (
     zipfile.BadZipFile,
     tarfile.TarError,
@@ -69,10 +69,10 @@ def is_clutter(name: str) -> bool:
 
 
 @dataclass
-class Budget:
+class UnpackBudget:
     """How much may come out of all archives of one submission together, and how much has."""
 
-    limits: Limits = field(default_factory=Limits)
+    limits: PackageLimits = field(default_factory=PackageLimits)
     entries: int = 0
     used_bytes: int = 0
 
@@ -99,12 +99,12 @@ class Budget:
         return HostileArchive(f"Unpacked, it is larger than {size(self.limits.bytes)}.")
 
 
-def unpack(archive: Path, into: Path, budget: Budget | None = None) -> None:
+def unpack(archive: Path, into: Path, budget: UnpackBudget | None = None) -> None:
     """Unpack `archive` into the new folder `into`, as far as `budget` reaches.
 
-    Raises HostileArchive, Refused for a file that is no archive, and what `writing` raises.
+    Raises HostileArchive, HandInRefused for a file that is no archive, and what `writing` raises.
     """
-    room = Room(into, budget or Budget())
+    room = UnpackFolder(into, budget or UnpackBudget())
     if archive.stat().st_size > room.budget.limits.bytes:
         raise HostileArchive(f"The file is larger than {size(room.budget.limits.bytes)}.")
     with writing(into):
@@ -120,33 +120,35 @@ def unpack(archive: Path, into: Path, budget: Budget | None = None) -> None:
         raise _broken(error) from error
 
 
-def _broken(error: Exception) -> Refused:
+def _broken(error: Exception) -> HandInRefused:
     words = str(error) or type(error).__name__
-    return Refused(f"It cannot be unpacked: {words}.", PACK_AGAIN)
+    return HandInRefused(f"It cannot be unpacked: {words}.", PACK_AGAIN)
 
 
 def _insist_on_archive(file: Path) -> None:
-    """Bytes of a kind that we know, and that is no archive of ours. Raises Refused."""
+    """Bytes of a kind that we know, and that is no archive of ours. Raises HandInRefused."""
     kind = kind_of(file)
     if kind.way != "opens" and kind is not UNKNOWN:
         raise not_opened(kind)
 
 
-def not_opened(kind: Kind) -> Refused:
+def not_opened(kind: FileKind) -> HandInRefused:
     """What is handed in instead of an archive, and the next step."""
     reasons = {
         "unpack": f"It is {kind.name}, and such a file is not opened here.",
         "nothing": f"It is {kind.name}.",
     }
-    return Refused(reasons.get(kind.way, f"It is {kind.name}, not a packed package."), PACK_AGAIN)
+    return HandInRefused(
+        reasons.get(kind.way, f"It is {kind.name}, not a packed package."), PACK_AGAIN
+    )
 
 
 @dataclass
-class Room:
+class UnpackFolder:
     """The folder that one archive is unpacked to."""
 
     folder: Path
-    budget: Budget
+    budget: UnpackBudget
     names: dict[str, bool] = field(default_factory=dict)
     """Name to whether it is a folder."""
 
@@ -223,7 +225,7 @@ def _shown(parts: tuple[str, ...]) -> str:
 # --- zip ---------------------------------------------------------------------------------------
 
 
-def _unpack_zip(archive: Path, room: Room) -> None:
+def _unpack_zip(archive: Path, room: UnpackFolder) -> None:
     _count_entries(archive, room.budget)
     try:
         file = zipfile.ZipFile(archive)
@@ -239,14 +241,14 @@ def _unpack_zip(archive: Path, room: Room) -> None:
                     room.write(source, place, bool(_mode(info) & 0o100), _written_s(info))
 
 
-def zip_names(archive: Path, limits: Limits) -> dict[str, zipfile.ZipInfo]:
+def zip_names(archive: Path, limits: PackageLimits) -> dict[str, zipfile.ZipInfo]:
     """The files in a zip file, by name with slashes; empty for what is none.
 
     Nothing is unpacked, and clutter is left out. Raises HostileArchive where it holds too many.
     """
     if not zipfile.is_zipfile(archive):
         return {}
-    _count_entries(archive, Budget(limits))
+    _count_entries(archive, UnpackBudget(limits))
     with suppress(*BROKEN, OSError), zipfile.ZipFile(archive) as file:
         named = ((_zip_name(info).replace("\\", "/"), info) for info in file.infolist())
         return {
@@ -257,7 +259,7 @@ def zip_names(archive: Path, limits: Limits) -> dict[str, zipfile.ZipInfo]:
     return {}
 
 
-def _count_entries(archive: Path, budget: Budget) -> None:
+def _count_entries(archive: Path, budget: UnpackBudget) -> None:
     """Before Python makes an object of each entry: a list of millions would fill the memory."""
     with archive.open("rb") as file, _mapped(file) as content:
         at, found = content.find(ENTRY_MARK), 0
@@ -274,7 +276,7 @@ def _mapped(file: IO[bytes]) -> Iterator[mmap.mmap]:
         yield content
 
 
-def _place_of(info: zipfile.ZipInfo, room: Room) -> Path:
+def _place_of(info: zipfile.ZipInfo, room: UnpackFolder) -> Path:
     name = _zip_name(info)
     kind = stat.S_IFMT(_mode(info))
     if kind == stat.S_IFLNK:
@@ -282,7 +284,7 @@ def _place_of(info: zipfile.ZipInfo, room: Room) -> Path:
     if kind not in (0, stat.S_IFREG, stat.S_IFDIR):
         raise HostileArchive(f"{_shown((name,))} is neither a file nor a folder.")
     if info.flag_bits & ENCRYPTED:
-        raise Refused("It is locked with a password.", "Pack it again without one.")
+        raise HandInRefused("It is locked with a password.", "Pack it again without one.")
     return room.enter(name, _is_folder(info), info.file_size)
 
 
@@ -317,7 +319,7 @@ def _mode(info: zipfile.ZipInfo) -> int:
 # --- tar ---------------------------------------------------------------------------------------
 
 
-def _unpack_tar(archive: Path, room: Room) -> None:
+def _unpack_tar(archive: Path, room: UnpackFolder) -> None:
     with _decompressed(archive) as plain:
         stream = cast(IO[bytes], Bounded(plain, room))
         with tarfile.open(
@@ -327,7 +329,7 @@ def _unpack_tar(archive: Path, room: Room) -> None:
                 _unpack_member(file, member, room)
 
 
-def _unpack_member(file: tarfile.TarFile, member: tarfile.TarInfo, room: Room) -> None:
+def _unpack_member(file: tarfile.TarFile, member: tarfile.TarInfo, room: UnpackFolder) -> None:
     _insist_on_kind(member)
     place = room.enter(member.name, member.isdir(), member.size if member.isreg() else 0)
     if member.isdir():
@@ -367,7 +369,7 @@ def _opened(archive: Path, start: bytes) -> IO[bytes]:
 class Bounded:
     """A stream that ends in a refusal where it holds more than any package."""
 
-    def __init__(self, stream: IO[bytes], room: Room) -> None:
+    def __init__(self, stream: IO[bytes], room: UnpackFolder) -> None:
         self._stream, self._budget = stream, room.budget
         limits = room.budget.limits
         self._most = limits.bytes + limits.files * 2 * tarfile.BLOCKSIZE

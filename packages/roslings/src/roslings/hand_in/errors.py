@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 
-class Refused(Exception):
+class HandInRefused(Exception):
     """A submission that cannot be graded as it was handed in; both texts are for its author."""
 
     def __init__(self, reason: str, next_step: str) -> None:
@@ -14,7 +14,7 @@ class Refused(Exception):
 PACK_AGAIN = "Hand in the file that ./roslings pack LAB makes."
 
 
-class HostileArchive(Refused):
+class HostileArchive(HandInRefused):
     """The archive holds what no archive of a package holds."""
 
     def __init__(self, reason: str) -> None:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 
-from roslings.hand_in.archives import Budget, is_archive, is_clutter, not_opened, unpack
-from roslings.hand_in.errors import PACK_AGAIN, HostileArchive, Refused
+from roslings.hand_in.archives import UnpackBudget, is_archive, is_clutter, not_opened, unpack
+from roslings.hand_in.errors import PACK_AGAIN, HandInRefused, HostileArchive
 from roslings.hand_in.newest import newest_first
 from roslings.workspace.errors import (
     MOST_NAMED,
@@ -37,7 +37,7 @@ def package_in(handed_in: Path, name: str, room: Path) -> Path:
 
     Where a folder or an archive holds no package but archives, the newest of these that has the
     package counts.
-    Raises Refused, and MachineTrouble where the disk is in the way.
+    Raises HandInRefused, and MachineTrouble where the disk is in the way.
     """
     opening = Opening(name, room)
     try:
@@ -57,15 +57,15 @@ class Opening:
     name: str
     """Of the package that is looked for."""
     room: Path
-    budget: Budget = field(default_factory=Budget)
+    budget: UnpackBudget = field(default_factory=UnpackBudget)
     unpacked: list[Path] = field(default_factory=list)
     told: dict[str, str] = field(default_factory=dict)
     """Archives inside, and why no package came out of each."""
 
     def folder_of(self, handed_in: Path) -> Path:
-        """The folder with what was handed in. Raises Refused."""
+        """The folder with what was handed in. Raises HandInRefused."""
         if not handed_in.exists():
-            raise Refused("There is nothing at its path.", "Look at the path in the list.")
+            raise HandInRefused("There is nothing at its path.", "Look at the path in the list.")
         if handed_in.is_dir():
             return self._searched(handed_in, 0)
         kind = kind_of(handed_in)
@@ -105,7 +105,7 @@ class Opening:
             except HostileArchive:
                 if len(archives) == 1:
                     raise
-            except Refused as refusal:  # said where nothing else has the package
+            except HandInRefused as refusal:  # said where nothing else has the package
                 self.told[archive.name] = refusal.reason
             else:
                 self.told.setdefault(archive.name, self._why_not(folder))
@@ -143,7 +143,7 @@ def _chosen(folder: Path, opening: Opening) -> Path:
     package = _found(folder, opening.name)
     if not package.resolve().is_relative_to(folder.resolve()):
         reason = "A link in it leads to another place."
-        raise Refused(reason, "Replace the link by the files themselves.")
+        raise HandInRefused(reason, "Replace the link by the files themselves.")
     return package
 
 
@@ -159,12 +159,14 @@ def _found(folder: Path, name: str) -> Path:
         raise NamedOtherwise(name, own) from None
 
 
-def _nothing_came_out(told: dict[str, str]) -> Refused | None:
+def _nothing_came_out(told: dict[str, str]) -> HandInRefused | None:
     """Of any archive inside; None where there is none."""
     if not told:
         return None
     lines = [_of(name, reason) for name, reason in islice(told.items(), MOST_NAMED)]
-    return Refused("\n  ".join(["There is no ROS package in submission:", *lines]), PACK_AGAIN)
+    return HandInRefused(
+        "\n  ".join(["There is no ROS package in submission:", *lines]), PACK_AGAIN
+    )
 
 
 def _of(name: str, reason: str) -> str:
@@ -172,6 +174,8 @@ def _of(name: str, reason: str) -> str:
     return f"{name} {reason[3:]}" if reason.startswith("It ") else f"{name}: {reason}"
 
 
-def in_its_own_words(error: WorkspaceError, places: tuple[Path, ...]) -> Refused:
+def in_its_own_words(error: WorkspaceError, places: tuple[Path, ...]) -> HandInRefused:
     """The same sentences, without the paths of the machine that grades."""
-    return Refused(without_places(error.problem, places), without_places(error.next_step, places))
+    return HandInRefused(
+        without_places(error.problem, places), without_places(error.next_step, places)
+    )

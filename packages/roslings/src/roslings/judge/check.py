@@ -24,9 +24,9 @@ def check(
 ) -> Callable[[Function], Function]:
     """Make a pytest function a check; it is skipped when a check in `needs` did not pass.
 
-    One mistake costs one check: where `explained_by` names an earlier check and the fault (or
-    several) that was found there, this check is skipped if it fails too. Where it passes, it has
-    its points.
+    One mistake costs one check. `explained_by` names an earlier check and the fault (or several)
+    that was found there. Then this check is skipped if it fails too. Where it passes, it has its
+    points.
 
     Its name without `test_` is the check's name; its docstring is what the student reads, with
     the grader's own names in braces: `{CHATTER.topic} carries {CHATTER.type}.`

@@ -6,13 +6,15 @@ import difflib
 from collections import Counter, defaultdict
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
+from typing import Literal
 
 from ros2_on_pip.rates import LONGEST_STALL_S
 from roslings.course import NodeContract, TopicContract
 from roslings.course.files import written
 from roslings.evidence import Ending, ExperimentSeen, LogLine, ProcessSeen, Spoken
-from roslings.exits import is_late, is_unclean, is_whole, tracebacks, without_interrupt
 from roslings.judge import faults
+from roslings.judge.faults import EndpointKind, reasons
+from roslings.judge.faults.sentences import Text
 from roslings.judge.lines import times
 from roslings.judge.remarks import remark
 from roslings.judge.views import (
@@ -24,8 +26,9 @@ from roslings.judge.views import (
     PictureView,
     ProcessView,
 )
-from roslings.judge.words import describe_end
-from roslings.matching import own_endpoints
+from roslings.judge.words import end_of
+from roslings.seen.exits import is_late, is_unclean, is_whole, tracebacks, without_interrupt
+from roslings.seen.matching import own_endpoints
 
 FEWEST_MESSAGES = 5
 SIMILAR_LINE = 0.5
@@ -34,24 +37,17 @@ SIMILAR_LINE = 0.5
 def require_steady(stall_s: float) -> None:
     """Before a time is held against the student: this computer kept up. Raises Inconclusive."""
     if stall_s > LONGEST_STALL_S:
-        raise faults.Inconclusive(
-            f"this computer stood still for {stall_s:.1f} s while your nodes ran;"
-            " close other programs and check again"
-        )
+        raise reasons.StoodStill(stall_s)
 
 
 def require_processors(executable: str, ending: Ending, limit_s: float) -> None:
     """Before its ending is held against the student: it had its time. Raises Inconclusive."""
     if ending.least_own_s <= limit_s:
-        raise faults.Inconclusive(
-            f"{executable} ended late, but its threads waited for a processor for"
-            f" {ending.waited_s + ending.others_waited_s:.1f} s meanwhile;"
-            " close other programs and check again"
-        )
+        raise reasons.NoProcessor(executable, ending.waited_s + ending.others_waited_s)
 
 
 def require_its_time(
-    seen: ExperimentSeen, part: str | None, late_s: float | None, what: str
+    seen: ExperimentSeen, part: str | None, late_s: float | None, what: Text
 ) -> None:
     """Before something late is held against the student: this computer did not make it so late.
 
@@ -61,10 +57,7 @@ def require_its_time(
     stretches = [held for name, held in seen.held_up.items() if part in (name, None)]
     held_s = max((held.longest_s for held in stretches), default=0.0)
     if (seen.patience_s if late_s is None else late_s) <= held_s:
-        raise faults.Inconclusive(
-            f"{what} came late, but this computer held your node or the check up for {held_s:.2f} s"
-            " meanwhile; close other programs and check again"
-        )
+        raise reasons.HeldUp(what, held_s)
 
 
 # --- the package -------------------------------------------------------------------------------
@@ -103,7 +96,7 @@ def be_built_as(build_type: str) -> Demand[PackageView]:
     def demand(package: PackageView) -> None:
         built = package.built
         if built is None:
-            raise faults.Inconclusive("colcon was not run")
+            raise reasons.NotBuilt
         if not built.succeeded:
             raise faults.BuildFailed(built.seconds, log=tuple(built.output[-10:]))
         if built.recognised_as != f"ros.{build_type}":
@@ -131,16 +124,16 @@ def come_up(process: ProcessView) -> None:
     """It makes a node, and does not end before that node has done anything."""
     seen = process.seen
     if seen.ended_by_itself and not (process.shown and process.acted):
-        how = f"it ended by itself after {process.ran_s:.1f} s ({describe_end(seen)})"
-        raise faults.DidNotComeUp(seen.executable, how, log=process.last_lines())
+        raise faults.DidNotComeUp(
+            seen.executable, process.ran_s, end_of(seen), log=process.last_lines()
+        )
     if not process.shown:
         require_steady(process.experiment.stall_s)
         require_believable(process.experiment)
-        how = "it runs, but no node of it appeared in the graph"
-        raise faults.DidNotComeUp(seen.executable, how, log=process.last_lines())
+        raise faults.DidNotComeUp(seen.executable, log=process.last_lines())
 
 
-def during(when: str, *demands: Demand[ProcessView]) -> Demand[ProcessView]:
+def during(when: Text, *demands: Demand[ProcessView]) -> Demand[ProcessView]:
     """The same demands, of `come_up` and `stay_up`; their faults say when it was."""
 
     def demand(process: ProcessView) -> None:
@@ -160,7 +153,7 @@ def stay_up(process: ProcessView) -> None:
             raise faults.StoppedByItself(
                 run.seen.executable,
                 run.ran_s,
-                describe_end(run.seen),
+                end_of(run.seen),
                 simulated=run.is_simulated,
                 log=run.last_lines(),
             )
@@ -180,17 +173,17 @@ def outlast_the_soak(process: ProcessView) -> None:
         raise faults.EndedInTheSoak(
             soaked.executable,
             lifetime_s(soaked),
-            describe_end(soaked),
+            end_of(soaked),
             log=tuple(line.text for line in without_interrupt(soaked)),
         )
-    remark(f"{lifetime_s(soaked):.0f} s left alone")
+    remark(reasons.Ran(lifetime_s(soaked), "alone"))
 
 
-def how_long(process: ProcessView) -> str:
+def how_long(process: ProcessView) -> reasons.Ran:
     """How long it ran in this experiment, and by which clock: `ran 12 s simulated`."""
     if process.is_simulated:
-        return f"ran {process.ran_s:.0f} s simulated"
-    return f"ran {lifetime_s(process.seen):.0f} s"
+        return reasons.Ran(process.ran_s, "simulated")
+    return reasons.Ran(lifetime_s(process.seen))
 
 
 def lifetime_s(seen: ProcessSeen) -> float:
@@ -205,11 +198,11 @@ def end_within(limit_s: float) -> Demand[ProcessView]:
     def demand(process: ProcessView) -> None:
         seen = process.seen
         if seen.ending is None:
-            raise faults.NothingToJudge("it ended before it was asked to")
+            raise reasons.NothingSeen("end")
         if is_late(seen, limit_s):
             require_steady(process.experiment.stall_s)
             require_processors(seen.executable, seen.ending, limit_s)
-        if agreed(process, lambda each: is_late(each, limit_s), "ended late"):
+        if agreed(process, lambda each: is_late(each, limit_s), "late"):
             raise faults.DoesNotEnd(seen.executable, limit_s, seen.ending.own_s)
         if seen.left_behind:
             raise faults.LeavesProcesses(seen.executable, seen.left_behind)
@@ -220,17 +213,15 @@ def end_within(limit_s: float) -> Demand[ProcessView]:
 def exit_cleanly(process: ProcessView) -> None:
     """After Ctrl-C: exit code 0 and no traceback. Raises Inconclusive where no end was whole."""
     if not process.seen.ended_after_ctrl_c:
-        raise faults.NothingToJudge("it did not end after Ctrl-C")
+        raise reasons.NothingSeen("clean_end")
     process = _with_whole_ends(process)
     seen = process.seen
-    if agreed(process, is_unclean, "ended with an error"):
-        how = describe_end(seen) + (", with a traceback" if tracebacks(seen) else "")
-        raise faults.UncleanExit(seen.executable, how, log=process.lines_of_its_end)
-    if seen.ending_cut:
-        raise faults.Inconclusive(
-            f"too much to keep: {seen.output_dropped_bytes} bytes that {seen.executable} wrote had"
-            " no room in the evidence, some from after Ctrl-C; let it write less, then check again"
+    if agreed(process, is_unclean, "with_error"):
+        raise faults.UncleanExit(
+            seen.executable, end_of(seen), bool(tracebacks(seen)), log=process.lines_of_its_end
         )
+    if seen.ending_cut:
+        raise reasons.EndNotKept(seen.executable, seen.output_dropped_bytes)
 
 
 def _with_whole_ends(process: ProcessView) -> ProcessView:
@@ -238,21 +229,19 @@ def _with_whole_ends(process: ProcessView) -> ProcessView:
     here = [*process.before, process.seen]
     ends = list(filter(is_whole, here)) or list(filter(is_whole, process.elsewhere))
     if not ends:
-        raise faults.Inconclusive(
-            f"Ctrl-C met {process.seen.executable} while rclpy itself was at work, and what it does"
-            " at its end was not seen; check again"
-        )
+        raise reasons.EndNotSeen(process.seen.executable)
     return replace(process, seen=ends[-1], before=tuple(ends[:-1]))
 
 
-def agreed(process: ProcessView, bad: Callable[[ProcessSeen], bool], what: str) -> bool:
+def agreed(
+    process: ProcessView,
+    bad: Callable[[ProcessSeen], bool],
+    ended: Literal["late", "with_error"],
+) -> bool:
     """Whether it ended badly each time that it was run. Raises Inconclusive where only once."""
     now = bad(process.seen)
     if any(bad(each) is not now for each in process.before):
-        raise faults.Inconclusive(
-            f"{process.seen.executable} {what} in one of two runs, and in the other it did not;"
-            " check again"
-        )
+        raise reasons.RunsDiffer(process.seen.executable, ended)
     return now
 
 
@@ -263,7 +252,7 @@ def log_each(node: NodeContract, texts: Sequence[str]) -> Demand[ProcessView]:
     def demand(process: ProcessView) -> None:
         wanted = [spellings(template, text) for text in texts]
         if not wanted:
-            raise faults.NothingToJudge("there was no message to write about")
+            raise reasons.NothingSeen("messages")
         for spelled in wanted[:-1] or wanted:
             if not any(map(process.wrote, spelled)):
                 near = most_similar(spelled[0], process.texts)
@@ -309,7 +298,7 @@ def repeat(node: NodeContract, spoken: Sequence[Spoken]) -> Demand[ProcessView]:
 
     def demand(process: ProcessView) -> None:
         if not spoken:
-            raise faults.NothingToJudge("nothing could be said to it")
+            raise reasons.NothingSeen("spoken")
         said = [str(each.content["data"]) for each in spoken]
         wanted = [spellings(template, text) for text in said]
         for text, spelled in zip(said, wanted, strict=True):
@@ -350,12 +339,10 @@ def be_named(node: NodeView) -> None:
 
 def be_there(endpoint: EndpointView) -> None:
     """The topic has the contract's name, and one endpoint of the kind is there."""
-    verb = "publishes on" if endpoint.kind == "publisher" else "subscribes to"
-    topic = endpoint.contract.topic
     if endpoint.endpoint is None:
-        raise faults.NoTopic(topic, verb)
+        raise faults.NoTopic(endpoint.contract.topic, endpoint.kind)
     if not endpoint.near.exact:
-        raise faults.WrongTopic(endpoint.near, verb, endpoint.found.type)
+        raise faults.WrongTopic(endpoint.near, endpoint.kind, endpoint.found.type)
 
 
 def be_the_only_one(endpoint: EndpointView) -> None:
@@ -386,9 +373,11 @@ def have_just_this_qos(endpoint: EndpointView) -> None:
         raise faults.NotThisQos(endpoint.found.topic, endpoint.kind, wanted, found)
 
 
-def _wanted_and_found(endpoint: EndpointView) -> tuple[faults.Matched, faults.Matched]:
+def _wanted_and_found(
+    endpoint: EndpointView,
+) -> tuple[faults.MatchedPolicies, faults.MatchedPolicies]:
     asked = endpoint.contract.qos
-    return faults.Matched(asked.reliability, asked.durability), faults.matched(endpoint.qos)
+    return faults.MatchedPolicies(asked.reliability, asked.durability), faults.matched(endpoint.qos)
 
 
 def hold_just(nodes: Sequence[NodeContract], topic: TopicContract) -> Demand[ExperimentView]:
@@ -404,32 +393,32 @@ def hold_just(nodes: Sequence[NodeContract], topic: TopicContract) -> Demand[Exp
         if set(wanted) - set(there):
             require_steady(experiment.seen.stall_s)
         if there != wanted:
-            raise faults.NotTheAskedGraph(wanted, there, "the nodes are")
+            raise faults.NotTheAskedGraph(wanted, there)
         ends = {(e.node, e.kind) for e in own_endpoints(graph) if e.topic == topic.topic}
-        edges = tuple(f"{node} ({kind})" for node, kind in sorted(ends))
-        asked = tuple(sorted(_asked_edges(nodes, topic)))
+        edges = tuple(faults.EndOfTopic(*each) for each in sorted(ends))
+        asked = tuple(faults.EndOfTopic(*each) for each in sorted(_asked_ends(nodes, topic)))
         if edges != asked:
-            raise faults.NotTheAskedGraph(asked, edges, f"on {topic.topic} there are")
+            raise faults.NotTheAskedGraph(asked, edges, topic.topic)
 
     return demand
 
 
-def _asked_edges(nodes: Sequence[NodeContract], topic: TopicContract) -> Iterable[str]:
+def _asked_ends(
+    nodes: Sequence[NodeContract], topic: TopicContract
+) -> Iterable[tuple[str, EndpointKind]]:
     for node in nodes:
         if any(t.topic == topic.topic for t in node.publishes):
-            yield f"{node.node} (publisher)"
+            yield node.node, "publisher"
         if any(t.topic == topic.topic for t in node.subscribes):
-            yield f"{node.node} (subscription)"
+            yield node.node, "subscription"
 
 
 def require_believable(seen: ExperimentSeen) -> None:
     """Before a time is held against the student, or for them. Raises Inconclusive."""
     if seen.machine_fault:
-        raise faults.Inconclusive(f"{seen.machine_fault}; close other programs and check again")
+        raise reasons.TimesNotBelieved(seen.machine_fault)
     if seen.not_believed:
-        raise faults.Inconclusive(
-            f"in simulated time, {seen.not_believed}; check again with --clock auto"
-        )
+        raise reasons.TimesNotBelieved(seen.not_believed, simulated=True)
 
 
 # --- pictures ----------------------------------------------------------------------------------
@@ -438,15 +427,13 @@ def require_believable(seen: ExperimentSeen) -> None:
 def be_a_picture(picture: PictureView) -> None:
     """The file is an image of the asked kind and size, and shows something."""
     contract, seen = picture.contract, picture.seen
-    wanted = f"a {contract.format} of at least {contract.min_width_px} x {contract.min_height_px}"
+    least_px = (contract.min_width_px, contract.min_height_px)
+    wanted = (contract.path, contract.format, least_px, picture.lab)
     if seen is None:
-        raise faults.NoPicture(contract.path, wanted, "there is no such file", picture.lab)
+        raise faults.NoPicture(*wanted)
     if seen.format != contract.format:
-        raise faults.NotAPicture(
-            contract.path, wanted, f"it is {seen.format or 'no image'}", picture.lab
-        )
+        raise faults.NotAPicture(*wanted, seen.format or None)
     if seen.width < contract.min_width_px or seen.height < contract.min_height_px:
-        size = f"it has {seen.width} x {seen.height} pixels"
-        raise faults.PictureTooSmall(contract.path, wanted, size, picture.lab)
+        raise faults.PictureTooSmall(*wanted, (seen.width, seen.height))
     if seen.colours < 2:
-        raise faults.OneColour(contract.path, wanted, "all pixels have one colour", picture.lab)
+        raise faults.OneColour(*wanted)

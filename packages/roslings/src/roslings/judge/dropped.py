@@ -10,10 +10,11 @@ from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from types import new_class
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 from roslings.evidence import Evidence, ExperimentSeen, Kind, ProcessSeen, TopicSeen
-from roslings.judge.faults import Fault, Inconclusive, NothingToJudge
+from roslings.judge.faults import Fault, NothingToJudge
+from roslings.judge.faults.reasons import Dropped, TooMuchToKeep
 from roslings.record import PartSeen
 
 R = TypeVar("R")
@@ -25,25 +26,19 @@ WHERE: dict[Kind, tuple[str, ...]] = {
 requests to the grader lie in the parts of capabilities.
 """
 JUDGED = (type(None), Fault, AssertionError, NothingToJudge)
-NAMES: dict[Kind, str] = {
-    "rosout": "lines in /rosout",
-    "graph": "names and endpoints in the graph",
-    "requests": "requests to the grader",
-}
 
 
 @dataclass(frozen=True)
 class Missing:
     """Something of which a part was dropped."""
 
-    what: str
-    """In words, with how much."""
+    what: Dropped
     are_lines: bool = False
     """Of what a node writes, a check asks whether something is there: found is found."""
 
 
 @dataclass
-class Looks:
+class LookedAt:
     """What the check that runs now has looked at, as far as it is not whole."""
 
     missing: dict[Missing, None] = field(default_factory=dict)
@@ -58,14 +53,10 @@ class Looks:
         stands = isinstance(error, Fault) and error.was_seen
         if not rests_on or stands or not isinstance(error, JUDGED):
             return error
-        what = " and ".join(missing.what for missing in rests_on)
-        return Inconclusive(
-            f"too much to keep: {what} had no room in the evidence, so this cannot be told;"
-            " let your package send and write less, then check again"
-        )
+        return TooMuchToKeep(tuple(missing.what for missing in rests_on))
 
 
-def watched(evidence: Evidence, looks: Looks) -> Evidence:
+def watched(evidence: Evidence, looks: LookedAt) -> Evidence:
     """The same evidence; what is not whole in it tells `looks` when it is looked at."""
     experiments = {
         name: watched_experiment(seen, looks) for name, seen in evidence.experiments.items()
@@ -73,11 +64,11 @@ def watched(evidence: Evidence, looks: Looks) -> Evidence:
     return evidence.model_copy(update={"experiments": experiments})
 
 
-def watched_experiment(seen: ExperimentSeen, looks: Looks) -> ExperimentSeen:
+def watched_experiment(seen: ExperimentSeen, looks: LookedAt) -> ExperimentSeen:
     """The same of one experiment alone."""
     dropped = {each.kind: each.count for each in seen.dropped}
     missing = {
-        name: Missing(f"{dropped[kind]} {NAMES[kind]} of {seen.name!r}", kind == "rosout")
+        name: Missing(Dropped(kind, dropped[kind], seen.name), kind == "rosout")
         for kind, names in WHERE.items()
         if kind in dropped
         for name in names
@@ -101,7 +92,7 @@ class Parts(dict[str, PartSeen]):
     """
 
     def __init__(
-        self, parts: Mapping[str, PartSeen], unasked: Missing | None, looks: Looks
+        self, parts: Mapping[str, PartSeen], unasked: Missing | None, looks: LookedAt
     ) -> None:
         super().__init__(parts)
         self._unasked, self._looks = unasked, looks
@@ -115,14 +106,14 @@ class Parts(dict[str, PartSeen]):
 
 
 def _unasked(count: int, experiment: str) -> Missing | None:
-    return Missing(f"{count} {NAMES['requests']} of {experiment!r}") if count else None
+    return Missing(Dropped("requests", count, experiment)) if count else None
 
 
 class Topics(dict[str, TopicSeen]):
     """What was heard, topic by topic; a topic that is not in it may be one of the unheard ones."""
 
     def __init__(
-        self, topics: Mapping[str, TopicSeen], unheard: Missing | None, looks: Looks
+        self, topics: Mapping[str, TopicSeen], unheard: Missing | None, looks: LookedAt
     ) -> None:
         super().__init__(topics)
         self._unheard, self._looks = unheard, looks
@@ -139,29 +130,31 @@ class Topics(dict[str, TopicSeen]):
 
 
 def _unheard(count: int, experiment: str) -> Missing | None:
-    return Missing(f"{count} topics of {experiment!r}") if count else None
+    return Missing(Dropped("topics", count, experiment)) if count else None
 
 
-def _watched_topic(seen: TopicSeen, looks: Looks) -> TopicSeen:
+def _watched_topic(seen: TopicSeen, looks: LookedAt) -> TopicSeen:
     missing = {}
     if seen.not_kept or seen.cut_short:
-        count = f"{seen.not_kept} messages" if seen.not_kept else "some messages"
-        missing["messages"] = Missing(f"{count} on {seen.name}")
+        kind: Literal["messages", "some_messages"] = (
+            "messages" if seen.not_kept else "some_messages"
+        )
+        missing["messages"] = Missing(Dropped(kind, seen.not_kept or 0, seen.name))
     if seen.not_read:
-        content = {"content": Missing(f"what {seen.not_read} messages on {seen.name} hold")}
+        content = {"content": Missing(Dropped("content", seen.not_read, seen.name))}
         messages = [_telling(m, content, looks) if m.content is None else m for m in seen.messages]
         seen = seen.model_copy(update={"messages": messages})
     return _telling(seen, missing, looks)
 
 
-def _watched_process(seen: ProcessSeen, looks: Looks) -> ProcessSeen:
+def _watched_process(seen: ProcessSeen, looks: LookedAt) -> ProcessSeen:
     if not seen.output_dropped_bytes:
         return seen
-    what = f"{seen.output_dropped_bytes} bytes that {seen.executable} wrote"
+    what = Dropped("output", seen.output_dropped_bytes, seen.executable)
     return _telling(seen, {"lines": Missing(what, are_lines=True)}, looks)
 
 
-def _telling(record: R, missing: Mapping[str, Missing], looks: Looks) -> R:
+def _telling(record: R, missing: Mapping[str, Missing], looks: LookedAt) -> R:
     """The record; who reads one of these fields of it is told of."""
     if not missing:
         return record

@@ -1,6 +1,6 @@
 """What prints without end is ended, and whatever check misses something of it then tells why.
 
-Not one demand looks for that: a node, a program with one task and a launch are asked different
+Not one demand looks for that. A node, a program with one task and a launch are asked different
 things, and none of them can do its work so.
 """
 

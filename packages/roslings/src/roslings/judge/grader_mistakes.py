@@ -1,8 +1,8 @@
 """Where a grader itself is wrong: file, line, Python's words, and the next step of who reads it.
 
-A grader is a program, and its author makes mistakes in it as students do in theirs. What breaks
-off in an experiment is told by another process, as text; what cannot be loaded, and what breaks off
-in a check, is an exception of this one.
+A grader is a program, and its author makes mistakes in it as students do in theirs. What breaks off
+in an experiment is told by another process, as text. What cannot be loaded, and what breaks off in
+a check, is an exception of this one.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from typing import Any
 from ros2_on_pip.errors import INCONCLUSIVE
 from roslings.course import Lab, root
 from roslings.course.files import CourseError
-from roslings.grader import Experiment, experiments_of, load_grader
-from roslings.lab_folders import folder_beside
+from roslings.course.grader import Experiment, experiments_of, load_grader
+from roslings.folders.lab_folders import folder_beside
 
 FRAME = re.compile(r'\s*File "(?P<file>.+)", line (?P<line>\d+)(?:, in (?P<within>.+))?')
 """A line of a traceback, as Python writes it; a syntax error is within nothing."""
@@ -49,7 +49,7 @@ class GraderBroke(BadGrader):
 
 
 @dataclass(frozen=True)
-class Mistake:
+class GraderMistake:
     """The line of a grader at which it broke off, and why."""
 
     file: Path
@@ -97,13 +97,13 @@ class Mistake:
 # --- what an exception tells, and what a text tells --------------------------------------------
 
 
-def mistake_of(error: BaseException, graders: Sequence[Path]) -> Mistake | None:
+def mistake_of(error: BaseException, graders: Sequence[Path]) -> GraderMistake | None:
     """The innermost line of these graders that it came through; None where it came through none."""
     words = "".join(traceback.format_exception_only(error)).strip()
     if isinstance(error, SyntaxError) and error.filename:
         *_, words = words.splitlines()
         file = Path(error.filename)
-        return Mistake(file, error.lineno or 1, words) if _is_of(file, graders) else None
+        return GraderMistake(file, error.lineno or 1, words) if _is_of(file, graders) else None
     frames = [
         _Frame(Path(each.filename), each.lineno or 1, each.name)
         for each in traceback.extract_tb(error.__traceback__)
@@ -111,7 +111,7 @@ def mistake_of(error: BaseException, graders: Sequence[Path]) -> Mistake | None:
     return _innermost(frames, words, graders)
 
 
-def mistake_in(text: str, graders: Sequence[Path]) -> Mistake | None:
+def mistake_in(text: str, graders: Sequence[Path]) -> GraderMistake | None:
     """The same of a traceback that another process wrote."""
     lines = text.splitlines()
     found = [
@@ -135,14 +135,16 @@ class _Frame:
     within: str
 
 
-def _innermost(frames: Sequence[_Frame], words: str, graders: Sequence[Path]) -> Mistake | None:
+def _innermost(
+    frames: Sequence[_Frame], words: str, graders: Sequence[Path]
+) -> GraderMistake | None:
     own = next((each for each in reversed(frames) if _is_of(each.file, graders)), None)
     if own is None:
         return None
     within = "" if own.within == "<module>" else own.within
     deepest = frames[-1]
     raised = "" if deepest is own or _is_pythons(deepest.file) else _raised_in(deepest)
-    return Mistake(own.file, own.line, words, within, raised)
+    return GraderMistake(own.file, own.line, words, within, raised)
 
 
 def _is_of(file: Path, graders: Sequence[Path]) -> bool:
@@ -187,7 +189,7 @@ def why_it_broke_off(lab: Lab, words: str) -> GraderBroke | None:
     return asked[0].error if asked else None
 
 
-def asked_for_nothing(grader: Any) -> Iterator[Mistake]:
+def asked_for_nothing(grader: Any) -> Iterator[GraderMistake]:
     """Each experiment and check that asks for an experiment which is not there, or not yet."""
     known: list[str] = []
     for each in experiments_of(grader):
@@ -202,18 +204,18 @@ def asked_for_nothing(grader: Any) -> Iterator[Mistake]:
             )
 
 
-def _asks(each: Experiment, name: str, known: Sequence[str]) -> Mistake:
+def _asks(each: Experiment, name: str, known: Sequence[str]) -> GraderMistake:
     return nothing_called(name, each.function, known, "no experiment before it")
 
 
 def nothing_called(
     name: str, function: Any, there: Sequence[str], nothing: str = "no experiment"
-) -> Mistake:
+) -> GraderMistake:
     """A function that asks for `name`, where only those of `there` can be asked for."""
     code = function.__code__
     words = f"it asks for {name!r}, and {nothing} is called so. There are: "
     names = ", ".join(there) or "none"
-    return Mistake(Path(code.co_filename), _head_of(code), words + names, code.co_name)
+    return GraderMistake(Path(code.co_filename), _head_of(code), words + names, code.co_name)
 
 
 def _head_of(code: Any) -> int:

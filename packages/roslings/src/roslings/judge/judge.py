@@ -10,13 +10,13 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from roslings.course import Lab
-from roslings.evidence import Evidence, ExperimentSeen, Span
-from roslings.grader import Experiment, experiments_of
-from roslings.judge.dropped import Looks, watched
+from roslings.course.grader import Experiment, experiments_of
+from roslings.evidence import Evidence, ExperimentSeen, GradingSpan
+from roslings.judge.dropped import LookedAt, watched
 from roslings.judge.grader_mistakes import BadGrader, load_or_tell
 from roslings.judge.unrecorded import NotRecordedView
 from roslings.judge.views import ExperimentView, View, views_of
-from roslings.timeline import NS_PER_S, shares_s
+from roslings.seen.timeline import NS_PER_S, shares_s
 from roslings.verdict import (
     CheckResult,
     Environment,
@@ -48,9 +48,9 @@ def judge_later(lab: Lab, bring: Callable[[], tuple[Evidence, int | None]]) -> V
     _ = lab.card, lab.hints, lab.hidden_checks
     declared = [each for grader in lab.graders for each in experiments_of(load_or_tell(grader))]
     views: dict[str, View] = {}
-    looks = Looks()
+    looks = LookedAt()
     brought: list[tuple[Evidence, int | None]] = []
-    timeline: list[Span] = []
+    timeline: list[GradingSpan] = []
 
     from roslings.judge.plugin import Evidences  # pytest takes long to load
 
@@ -63,7 +63,7 @@ def judge_later(lab: Lab, bring: Callable[[], tuple[Evidence, int | None]]) -> V
         views.update({each.name: _missing(each, evidence) for each in declared})
         views.update(views_of(watched(evidence, looks)))
 
-    judging = Span(part="judging", of="", began_ns=time.monotonic_ns(), ended_ns=0)
+    judging = GradingSpan(part="judging", of="", began_ns=time.monotonic_ns(), ended_ns=0)
     names = ("package", *(each.name for each in declared))
     results = run_checks(lab, Evidences(names, views, fill), looks)
     evidence, began_ns = brought[0]
@@ -83,7 +83,7 @@ def judge_later(lab: Lab, bring: Callable[[], tuple[Evidence, int | None]]) -> V
     )
 
 
-def run_checks(lab: Lab, evidences: Evidences, looks: Looks) -> tuple[CheckResult, ...]:
+def run_checks(lab: Lab, evidences: Evidences, looks: LookedAt) -> tuple[CheckResult, ...]:
     """The outcome of every check, in the grader's order."""
     import pytest
 
@@ -158,7 +158,7 @@ def _require_all(lab: Lab, collector: Collector) -> None:
         )
 
 
-def _timings(timeline: Sequence[Span], began_ns: int | None) -> Timings:
+def _timings(timeline: Sequence[GradingSpan], began_ns: int | None) -> Timings:
     ended_ns = max((span.ended_ns for span in timeline), default=0)
     if began_ns is None:
         began_ns = min((span.began_ns for span in timeline), default=0)

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from roslings.evidence import ExperimentSeen, LogLine, ProcessSeen
-from roslings.exits import without_interrupt
+from roslings.seen.exits import without_interrupt
 
 
 def written_by(seen: ProcessSeen, experiment: ExperimentSeen) -> list[LogLine]:

@@ -9,11 +9,11 @@ from typing import Any
 
 from roslings.evidence import UnreadablePart
 from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, Unmet
+from roslings.judge.faults.plain import fields_of
 from roslings.judge.faults.python_words import hint_for, mend_for
-from roslings.judge.grader_mistakes import GraderBroke, Mistake, mistake_of
+from roslings.judge.faults.reasons import GraderFailed, NewerPart
+from roslings.judge.grader_mistakes import GraderBroke, GraderMistake, mistake_of
 from roslings.judge.remarks import remarks
-
-ITSELF = "the grader itself failed here"
 
 
 def words_for(
@@ -36,24 +36,26 @@ def words_for(
             "hint": hint_for(error.log) or error.hint,
             "mend": (mend_for(error.log) if hint_for(error.log) else error.mend) or None,
             "fault": type(error).__name__,
+            "fields": fields_of(error),
             "log": error.log,
         }
     if isinstance(error, NothingToJudge):
         return {"outcome": "skip", "why": str(error)}
-    if isinstance(error, Inconclusive | UnreadablePart):
+    if isinstance(error, UnreadablePart):
+        return {"outcome": "inconclusive", "why": str(NewerPart(error.name, error.version))}
+    if isinstance(error, Inconclusive):
         return {"outcome": "inconclusive", "why": str(error)}
     log = tuple("".join(traceback.format_exception(error)).strip().splitlines()[-12:])
     if found := mistake_of(error, graders):
         return {**words_for_mistake(found), "log": log}
-    return {"outcome": "inconclusive", "why": f"{ITSELF}: tell your instructor", "log": log}
+    return {"outcome": "inconclusive", "why": str(GraderFailed()), "log": log}
 
 
-def words_for_mistake(mistake: Mistake) -> dict[str, Any]:
+def words_for_mistake(mistake: GraderMistake) -> dict[str, Any]:
     """Outcome and sentences for a check that cannot tell, by a mistake of the grader."""
     return {
         "outcome": "inconclusive",
-        "why": f"{ITSELF}: {mistake.in_short}. Who writes the lab mends this line; who does the"
-        " lab tells the instructor",
+        "why": str(GraderFailed(mistake.in_short)),
         "fault": GraderBroke.__name__,
     }
 

@@ -9,11 +9,13 @@ from typing import Any
 
 import pytest
 
+from ros2_on_pip.language import template
 from roslings.course import Lab
 from roslings.evidence import UnreadablePart
 from roslings.judge.check import check_of
-from roslings.judge.dropped import Looks
-from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, PrintsWithoutEnd
+from roslings.judge.dropped import LookedAt
+from roslings.judge.faults import Fault, Inconclusive, PrintsWithoutEnd
+from roslings.judge.faults.reasons import FirstMend
 from roslings.judge.floods import flood_in
 from roslings.judge.grader_mistakes import nothing_called
 from roslings.judge.outcome import words_for, words_for_mistake
@@ -27,7 +29,7 @@ from roslings.verdict import CheckResult
 class Collector:
     """Runs each check once its needs have passed, and writes down what came of it."""
 
-    def __init__(self, lab: Lab, looks: Looks, there: Sequence[str] = ()) -> None:
+    def __init__(self, lab: Lab, looks: LookedAt, there: Sequence[str] = ()) -> None:
         """`there` are the names that a check can ask for."""
         self.results: list[CheckResult] = []
         self.problems: list[str] = []
@@ -50,7 +52,7 @@ class Collector:
             root = self._root_of(need)
             if root is not None:
                 self._roots[check_name(item)] = root
-                pytest.skip(f"first mend: {self._title_of(root)}")
+                pytest.skip(str(FirstMend(self._title_of(root))))
 
     @pytest.hookimpl(wrapper=True)
     def pytest_runtest_makereport(
@@ -85,7 +87,7 @@ class Collector:
         for name, kinds in check_of(_function(item)).explained_by.items():
             if any(r.id == name and r.fault in kinds for r in self.results):
                 self._roots[check_name(item)] = name
-                return NothingToJudge(f"first mend: {self._title_of(name)}")
+                return FirstMend(self._title_of(name))
         return error
 
     def _told_once(
@@ -98,7 +100,7 @@ class Collector:
         if error is None:
             return None
         self._roots[check_name(item)] = told
-        return NothingToJudge(f"first mend: {self._title_of(told)}")
+        return FirstMend(self._title_of(told))
 
     def _title_of(self, name: str) -> str:
         titles = {result.id: result.title for result in self.results}
@@ -120,7 +122,7 @@ class Collector:
         if isinstance(error, Fault) and not error.blocks:
             self._open.add(name)
         if words["outcome"] == "fail" and hint:
-            words["hints"] = hint.steps
+            words["hints"] = steps_of(self._lab.name, name, hint.steps)
         return CheckResult(**words)
 
     def _words_for(self, item: pytest.Item, error: BaseException | None) -> dict[str, Any]:
@@ -130,6 +132,17 @@ class Collector:
             mistake = nothing_called(error.argname, _function(item), self._there)
             return words_for_mistake(mistake)
         return words_for(error, title_of(_function(item)), self._lab.graders)
+
+
+def steps_of(lab: str, check: str, english: Sequence[str]) -> tuple[str, ...]:
+    """The steps of a hint, in the language that is asked for: `hints.nodes.rate.1`."""
+    names = (hint_id(lab, check, number) for number in range(1, len(english) + 1))
+    return tuple(map(template, names, english))
+
+
+def hint_id(lab: str, check: str, number: int) -> str:
+    """The id of a step of a hint."""
+    return f"hints.{lab}.{check}.{number}"
 
 
 def _function(item: pytest.Item) -> Any:

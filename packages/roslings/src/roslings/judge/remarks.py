@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from contextvars import ContextVar
 
+from roslings.judge.faults.sentences import Text
+
 _SAID: ContextVar[list[str] | None] = ContextVar("remarks", default=None)
 
 
@@ -12,9 +14,9 @@ def begin_remarks() -> None:
     _SAID.set([])
 
 
-def remark(text: str) -> None:
+def remark(words: Text) -> None:
     """Say something of what was seen; once, however often it is said."""
-    said = _SAID.get()
+    said, text = _SAID.get(), str(words)
     if said is not None and text not in said:
         said.append(text)
 

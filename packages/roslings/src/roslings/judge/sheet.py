@@ -7,8 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ros2_on_pip.language import template
 from roslings.course import Lab
-from roslings.grader import load_grader
+from roslings.course.grader import load_grader
+from roslings.folders.lab_folders import GRADER
 from roslings.judge.check import check_of
 
 PREFIX = "test_"
@@ -42,8 +44,25 @@ def _line(name: str, function: Any) -> CheckLine:
 
 def title_of(function: Any) -> str:
     """The docstring's first line, with the grader's own names put in."""
+    found = template(title_id(function), english_title(function))
+    return found.format_map(function.__globals__)
+
+
+def title_id(function: Any) -> str:
+    """The id of a check's title: `graders.e_stop.runs`, of `test_runs` in `grade_e_stop.py`.
+
+    One that several graders share is `checks.depends`.
+    """
+    module, name = function.__module__.rpartition(".")[2], function.__name__.removeprefix(PREFIX)
+    if module.startswith(GRADER):
+        return f"graders.{module.removeprefix(GRADER)}.{name}"
+    return f"checks.{name}"
+
+
+def english_title(function: Any) -> str:
+    """The docstring's first line as it is written."""
     first: str = (function.__doc__ or function.__name__).strip().splitlines()[0]
-    return first.format_map(function.__globals__)
+    return first
 
 
 def dependants(lab: Lab, failed: set[str]) -> set[str]:

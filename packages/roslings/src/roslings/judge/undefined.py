@@ -1,7 +1,7 @@
 """Names that a grader's functions use and that nothing defines, told before any of them runs.
 
-Python looks for such a name only when its line runs: in an experiment that is after a build, and in
-a check it may be never, until a student's package leads there.
+Python looks for such a name only when its line runs. In an experiment that is after a build. In a
+check it may be never, until a student's package leads there.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 
-from roslings.grader import Experiment
-from roslings.judge.grader_mistakes import Mistake
+from roslings.course.grader import Experiment
+from roslings.judge.grader_mistakes import GraderMistake
 
 LOOKS_UP = ("LOAD_GLOBAL", "LOAD_NAME")
 
 
-def undefined_names(grader: ModuleType) -> Iterator[Mistake]:
+def undefined_names(grader: ModuleType) -> Iterator[GraderMistake]:
     """Each, with the line where it is used."""
     for function in _functions(grader):
         known = {*vars(grader), *vars(builtins)}
@@ -33,12 +33,12 @@ def _functions(grader: ModuleType) -> Iterator[FunctionType]:
             yield function
 
 
-def _in(code: CodeType, known: set[str], file: Path) -> Iterator[Mistake]:
+def _in(code: CodeType, known: set[str], file: Path) -> Iterator[GraderMistake]:
     """In a function, and in those inside of it."""
     for line, name in _looked_up(code):
         if name not in known:
             words = f"NameError: name {name!r} is not defined"
-            yield Mistake(file, line, words, code.co_name)
+            yield GraderMistake(file, line, words, code.co_name)
     for each in code.co_consts:
         if isinstance(each, CodeType):
             yield from _in(each, known, file)

@@ -14,7 +14,7 @@ from roslings.judge.demands import (
 from roslings.judge.faults import Fault, NothingToJudge
 from roslings.judge.faults.unobserved import SpeaksOnlyWhenObserved, WritesWhatWasNotSent
 from roslings.judge.views import Demand, ExperimentView
-from roslings.log_rates import hz_of, is_often, written_hz
+from roslings.seen.log_rates import hz_of, is_often, written_hz
 
 
 def speak_unobserved(

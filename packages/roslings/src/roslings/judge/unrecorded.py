@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NoReturn
 
-from roslings.judge.faults import Inconclusive
+from roslings.judge.faults.reasons import NotRecorded
 from roslings.judge.views import View
 
 
@@ -17,6 +17,4 @@ class NotRecordedView(View):
 
     def refuse(self) -> NoReturn:
         """Raises Inconclusive."""
-        raise Inconclusive(
-            f"too little evidence: {self.name!r} was not recorded then; check the package again"
-        )
+        raise NotRecorded(self.name)

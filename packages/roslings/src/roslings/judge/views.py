@@ -24,11 +24,16 @@ from roslings.evidence import (
     Qos,
     TopicSeen,
 )
-from roslings.exits import is_outlived, is_told_in_real_time, simulated_life_s, without_interrupt
-from roslings.judge.faults import Inconclusive, NothingToJudge
+from roslings.judge.faults.reasons import NothingSeen, StoodStill
 from roslings.judge.lines import texts_of, written_by
-from roslings.matching import nearest_endpoint, own_endpoints
-from roslings.rates import in_the_watch, measure_simulated_rate, own_rate
+from roslings.seen.exits import (
+    is_outlived,
+    is_told_in_real_time,
+    simulated_life_s,
+    without_interrupt,
+)
+from roslings.seen.matching import nearest_endpoint, own_endpoints
+from roslings.seen.rates import in_the_watch, measure_simulated_rate, own_rate
 
 LAST_LINES = 40
 V = TypeVar("V", bound="View")
@@ -86,8 +91,8 @@ class ProcessView(View):
     elsewhere: tuple[ProcessSeen, ...] = ()
     """The same executable in other runs, of this experiment or another."""
     doubted: tuple[tuple[ProcessSeen, ExperimentSeen], ...] = ()
-    """It in runs of the experiment whose times were not believed; not where it ended by itself in
-    simulated time, and the run in real time tells what that is worth."""
+    """It in runs of the experiment whose times were not believed. It is not there where it ended by
+    itself in simulated time, and the run in real time tells what that is worth."""
     soaked: ProcessSeen | None = None
     """The same executable in the soak; None where none was made, or others tell of its end."""
 
@@ -159,7 +164,7 @@ class EndpointView(View):
     def found(self) -> Endpoint:
         """The endpoint. Raises NothingToJudge where there is none."""
         if self.endpoint is None:
-            raise NothingToJudge(f"there is no {self.kind} to look at")
+            raise NothingSeen("endpoint", self.kind)
         return self.endpoint
 
     @property
@@ -220,7 +225,7 @@ class TopicView(View):
         contents = [m.content for m in self.messages]
         texts = [c["data"] for c in contents if isinstance(c, dict) and "data" in c]
         if not texts or not all(isinstance(text, str) for text in texts):
-            raise NothingToJudge("the messages hold no text")
+            raise NothingSeen("texts")
         return texts
 
     def numbers(self) -> list[int]:
@@ -229,7 +234,7 @@ class TopicView(View):
         found = [pattern.number_in(text) for text in self.texts]
         numbers = [number for number in found if number is not None]
         if len(numbers) < 2:
-            raise NothingToJudge("no number can be read from the texts")
+            raise NothingSeen("numbers")
         return numbers
 
 
@@ -250,7 +255,7 @@ class ExperimentView(View):
     def process(self, node: NodeContract) -> ProcessView:
         """The process of a node. Raises NothingToJudge where it was never started."""
         if node.executable not in self.seen.processes:
-            raise NothingToJudge(f"{node.executable} was not started")
+            raise NothingSeen("process", node.executable)
         return self.labelled(node.executable)
 
     def labelled(self, label: str) -> ProcessView:
@@ -287,12 +292,9 @@ class ExperimentView(View):
         """
         near = nearest(node.node, self.seen.graph.nodes)
         if near is None and self.seen.stall_s > LONGEST_STALL_S:
-            raise Inconclusive(
-                f"no node was seen, and this computer stood still for {self.seen.stall_s:.1f} s;"
-                " close other programs and check again"
-            )
+            raise StoodStill(self.seen.stall_s, node_is_missing=True)
         if near is None:
-            raise NothingToJudge("no node was seen in the graph")
+            raise NothingSeen("node")
         return NodeView(near, self.seen.graph.nodes.count(near.found))
 
     def publisher(self, node: NodeContract, topic: TopicContract) -> EndpointView:
@@ -319,7 +321,7 @@ class ExperimentView(View):
         """
         endpoint = nearest_endpoint(self.seen.graph, "publisher", contract.topic, contract.type)
         if endpoint is None:
-            raise NothingToJudge("no topic was published")
+            raise NothingSeen("topic")
         heard = self.seen.topics.get(endpoint.topic)
         return TopicView(
             contract,
@@ -333,7 +335,7 @@ class ExperimentView(View):
         self, node: NodeContract, topic: TopicContract, kind: Literal["publisher", "subscription"]
     ) -> EndpointView:
         if not self.seen.graph.nodes:
-            raise NothingToJudge("no node was seen in the graph")
+            raise NothingSeen("node")
         graph = self.seen.graph
         same = tuple(e for e in own_endpoints(graph) if e.kind == kind)
         found = nearest_endpoint(graph, kind, topic.topic, topic.type)

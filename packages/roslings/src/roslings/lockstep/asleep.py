@@ -11,7 +11,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from typing import Literal
 
-from roslings.lockstep.quiet import Account, Stat, Thread
+from roslings.lockstep.quiet import Stat, Thread, ThreadAccount
 
 Stands = Literal["sleeps", "waits with a time-out", "elsewhere", "unknown"]
 SLEEPS: dict[str, frozenset[int]] = {
@@ -33,14 +33,14 @@ NAMED_FROM_TICKS = 2
 
 
 @dataclass(frozen=True)
-class Call:
+class SystemCall:
     """What /proc/PID/task/TID/syscall tells: where a thread stands in the kernel."""
 
     number: int
     arguments: tuple[int, ...]
 
     @classmethod
-    def of(cls, text: str) -> Call | None:
+    def of(cls, text: str) -> SystemCall | None:
         """None where the thread runs, or is in no system call."""
         words = text.split()
         if len(words) < 7 or not words[0].isdigit():
@@ -63,7 +63,7 @@ def stands_in(thread: Thread, machine: str = MACHINE) -> Stands:
     """Where a thread stands. Some kernels (Yama) tell the call only to whoever began the process,
     and the function to all of the same user."""
     try:
-        call = Call.of(thread.read("syscall").decode())
+        call = SystemCall.of(thread.read("syscall").decode())
         return call.stands(machine) if call else "elsewhere"
     except PermissionError:
         return by_function(thread)
@@ -88,14 +88,16 @@ class Sleeper:
 
     pid: int
     thread: str
+    """Its name; empty for the main thread."""
     ticks: int
     """In so many ticks."""
 
     @property
     def words(self) -> str:
         """For whoever wrote it."""
+        which = f"its thread {self.thread}" if self.thread else "its main thread"
         return (
-            f"A loop of your node ({self.thread}, process {self.pid}) sleeps on the wall clock: "
+            f"A loop of your node ({which}, process {self.pid}) sleeps on the wall clock: "
             "it stood in time.sleep, or in what calls it, while robot time went on. "
             "It is judged in real time; a timer would follow /clock."
         )
@@ -105,7 +107,7 @@ class Sleeper:
 class Watch:
     """Counts who sleeps, tick by tick."""
 
-    account: Account
+    account: ThreadAccount
     _seen: Counter[tuple[int, int]] = field(default_factory=Counter)
 
     def look(self) -> None:
@@ -125,9 +127,9 @@ class Watch:
 
     def _name(self, pid: int, thread: int) -> str:
         if pid == thread:
-            return "its main thread"
+            return ""
         try:
             file = self.account.proc / str(pid) / "task" / str(thread) / "stat"
-            return f"its thread {Stat.of(file.read_bytes()).name}"
+            return Stat.of(file.read_bytes()).name
         except OSError:
-            return f"its thread {thread}"
+            return str(thread)

@@ -1,8 +1,8 @@
 """The kernel's account of some processes: whether anything in them runs, or has run.
 
-A set of processes is quiet when two looks in a row find each thread asleep (state S), and none has
-had a time slice in between. A message that was sent wakes its receiver at once, so whoever looks
-after that finds it at work, and quiet means: it has done all that the message led to.
+A set of processes is quiet when two looks in a row find two things. Each thread is asleep (state
+S), and none has had a time slice in between. A message that was sent wakes its receiver at once, so
+whoever looks after that finds it at work. Quiet means that it has done all that the message led to.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from ros2_on_pip.rates import NS_PER_S
+
 PROC = Path("/proc")
 CAP_S = 10.0
 """rclpy's MultiThreadedExecutor may submit one waiting task again and again for 2 s of its own."""
@@ -24,11 +26,17 @@ ENDED = frozenset("ZX")
 RESTS = ENDED | {"S"}
 """States of a thread that does nothing: at its end, or asleep."""
 
+LOOKS_AFTER_THE_END = 3
 LONGEST_TEXT = 4096
 """Of one of the kernel's files about a thread."""
 
 Slices = dict[int, int]
 """How often each thread has got a processor, by its number."""
+RanNs = dict[int, int]
+"""For how long each thread has had a processor, by its number."""
+USER_TIME = 11
+"""Of the fields behind a process's name in proc_pid_stat(5); three more of a kind follow."""
+TICKS_PER_S = os.sysconf("SC_CLK_TCK")
 
 
 class NoAccount(Exception):
@@ -84,6 +92,27 @@ def slices_of(text: bytes) -> int:
     return int(text.split()[2])
 
 
+def ran_ns_of(text: bytes) -> int:
+    """The first number of schedstat: for how long the thread has had a processor."""
+    return int(text.split()[0])
+
+
+def longest_run_s(before: RanNs, now: RanNs) -> float:
+    """Of all threads, the longest time for which one had a processor meanwhile, in seconds."""
+    return max((ran - before.get(each, 0) for each, ran in now.items()), default=0) / NS_PER_S
+
+
+def fields_of_stat(text: bytes) -> list[bytes]:
+    """Of a process's stat, what stands behind its name, in which any brackets may be."""
+    return text.rpartition(b")")[2].split()
+
+
+def used_s_of(text: bytes) -> float:
+    """Of a process's stat: what it and its children that have ended have used of processors."""
+    fields = fields_of_stat(text)
+    return sum(map(int, fields[USER_TIME : USER_TIME + 4])) / TICKS_PER_S
+
+
 class Thread:
     """One thread, by files that stay open: to open them for each look takes ten times as long.
 
@@ -113,6 +142,10 @@ class Thread:
         """How often it has got a processor."""
         return slices_of(self.read("schedstat"))
 
+    def ran_ns(self) -> int:
+        """For how long it has had a processor."""
+        return ran_ns_of(self.read("schedstat"))
+
     def children(self) -> list[int]:
         """Processes that it has begun. A kernel without CONFIG_PROC_CHILDREN tells none."""
         try:
@@ -122,7 +155,7 @@ class Thread:
 
 
 @dataclass(frozen=True)
-class Look:
+class ThreadSnapshot:
     """All threads at one moment."""
 
     slices: Slices
@@ -130,7 +163,7 @@ class Look:
     """Names of those that do not rest."""
 
 
-class Account:
+class ThreadAccount:
     """Of these processes and all their children; of our own other threads, too, with `ours`.
 
     Those of the middleware in this process take part in what is said. A context manager: leaving
@@ -142,7 +175,7 @@ class Account:
         self._threads: dict[int, list[Thread]] = {}
         """By process, as they were when their number was last another."""
 
-    def __enter__(self) -> Account:
+    def __enter__(self) -> ThreadAccount:
         return self
 
     def __exit__(self, *error: object) -> None:
@@ -162,7 +195,7 @@ class Account:
         if not all(slices.get(pid) for pid in self.pids):
             raise NoAccount("the kernel counts no time slices (schedstat)")
 
-    def look(self, whole: bool = True) -> Look:
+    def look(self, whole: bool = True) -> ThreadSnapshot:
         """Once, at all threads; else no further than to the first that runs."""
         if not self._threads:
             self._find_processes()
@@ -172,7 +205,7 @@ class Account:
             busy += self._look_at(pid, slices, whole)
             if busy and not whole:
                 break
-        return Look(slices, tuple(busy))
+        return ThreadSnapshot(slices, tuple(busy))
 
     def threads_of_nodes(self) -> Iterator[tuple[int, Thread]]:
         """Each thread and its process, ours left out."""
@@ -180,10 +213,32 @@ class Account:
             if pid != os.getpid():
                 yield from ((pid, each) for each in threads)
 
+    def ran_ns(self) -> RanNs:
+        """Of the nodes' threads, so far: a busy machine makes it no more."""
+        found: RanNs = {}
+        for _, thread in self.threads_of_nodes():
+            with suppress(FileNotFoundError, ProcessLookupError):
+                found[thread.number] = thread.ran_ns()
+        return found
+
+    def used_s(self) -> float:
+        """Of processors, by all processes of the nodes, so far. A thread that has ended counts."""
+        return sum(self._used_s(pid) for pid in self._threads if pid != os.getpid())
+
+    def _used_s(self, pid: int) -> float:
+        with suppress(FileNotFoundError, ProcessLookupError):
+            return used_s_of((self.proc / str(pid) / "stat").read_bytes())
+        return 0.0
+
     def is_quiet_within(self, within_s: float) -> bool:
-        """Wait for quiet, so long at most. Raises Gone where one of the processes has ended."""
+        """Wait for quiet, so long at most. Raises Gone where one of the processes has ended.
+
+        Whoever was asleep at the last look is looked at once more. On a busy machine the time may
+        be over before a second look.
+        """
         ends_s = time.monotonic() + within_s
         last: Slices | None = None
+        looks_left = LOOKS_AFTER_THE_END
         while True:
             now = self.look(whole=False)
             if now.busy:
@@ -196,7 +251,9 @@ class Account:
             else:
                 last = now.slices
             if time.monotonic() >= ends_s:
-                return False
+                if last is None or not looks_left:
+                    return False
+                looks_left -= 1
             if now.busy:
                 time.sleep(PAUSE_S)
 

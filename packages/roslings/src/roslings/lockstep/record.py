@@ -10,7 +10,7 @@ from roslings.verdict import Frozen
 End = Literal["done", "never quiet", "over budget", "a node ended", "nobody follows", "no account"]
 
 
-class CommandSeen(Frozen):
+class VelocityCommand(Frozen):
     """A /cmd_vel: what the rover takes of it."""
 
     forward_m_s: float
@@ -25,13 +25,15 @@ class DriveTick(Frozen):
     x_m: float
     y_m: float
     heading_rad: float
-    commands: tuple[CommandSeen, ...] = ()
+    commands: tuple[VelocityCommand, ...] = ()
     """All that were heard in this tick, in their order; the rover obeys the last."""
+    moving: tuple[tuple[float, float], ...] = ()
+    """Where what moves in the room was then, x and y in metres: always in the same order."""
     late: bool = False
     """A node still computed when its time was over: what it says counts at a later tick."""
 
     @property
-    def command(self) -> CommandSeen | None:
+    def command(self) -> VelocityCommand | None:
         """What the rover obeys from now on; None where nothing was said."""
         return self.commands[-1] if self.commands else None
 
@@ -52,9 +54,11 @@ class SleeperSeen(Frozen):
     pid: int
     ticks: int
     words: str
+    thread: str = ""
+    """Its name; empty for the main thread."""
 
 
-class Drive(Frozen):
+class LockstepDrive(Frozen):
     """A drive, from its first tick to its end."""
 
     room: int
@@ -71,9 +75,11 @@ class Drive(Frozen):
     way_m: float = 0.0
     wall_s: float = 0.0
     """Of wall time, from the first tick to the last."""
+    stall_s: float = 0.0
+    """In real time: so late was the world itself, at most."""
 
     @property
-    def commands(self) -> tuple[CommandSeen | None, ...]:
+    def commands(self) -> tuple[VelocityCommand | None, ...]:
         """The command of each tick: two equal drives have the same."""
         return tuple(tick.command for tick in self.ticks)
 
@@ -89,6 +95,6 @@ class Drive(Frozen):
         fresh.replace(file)
 
     @classmethod
-    def read(cls, file: Path) -> Drive:
+    def read(cls, file: Path) -> LockstepDrive:
         """What was written."""
         return cls.model_validate_json(file.read_text("utf-8"))

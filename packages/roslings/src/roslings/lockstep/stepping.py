@@ -1,55 +1,65 @@
 """One message at a time: odom, quiet, scan, quiet, clock, quiet; then the rover goes on.
 
-What a node says after /odom or /scan is obeyed from that moment on, what its timers say from the
-new time on: no command acts before it was thought of.
+What a node says after /odom or /scan is obeyed from that moment on. What its timers say is obeyed
+from the new time on. No command acts before it was thought of.
 """
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Protocol
 
 from roslings.lockstep.asleep import Watch
-from roslings.lockstep.quiet import CAP_S, Account, NeverQuiet
-from roslings.lockstep.record import BumpSeen, CommandSeen, Drive, DriveTick, End, SleeperSeen
+from roslings.lockstep.driven_rover import NS_PER_S, DrivenRoomRover, RoomPlan
+from roslings.lockstep.quiet import CAP_S, NeverQuiet, RanNs, ThreadAccount, longest_run_s
+from roslings.lockstep.record import End, LockstepDrive, SleeperSeen, VelocityCommand
 from roslings.verdict import Frozen
-from roslings_rover.models.differential_drive import Motion
-from roslings_rover.models.rooms import room_of
 from roslings_rover.rover.in_room import RoomRover
 
-NS_PER_S = 10**9
+WALL_TIMES = 3.0
+"""By the wall clock nothing may be restless for so many times the cap: who wakes up again and again
+needs little of a processor. A whole room may take so many times its budget: a busy machine lets all
+wait for a processor, and that is nobody's computing."""
+LOOKS_AGAIN_S = 0.1
+"""So often it is asked how long the nodes compute already."""
 BEGINS_S = 1_800_000_000
 """The same in each drive: timers keep to multiples of their period since the clock showed 0."""
 
 
 class OverBudget(Exception):
-    """A room took more wall time than there is for it."""
+    """The nodes used more of a processor than there is for a room."""
 
     def __init__(self, budget_s: float, robot_s: float) -> None:
         super().__init__(
-            f"The {budget_s:g} s of wall time for this room were over after {robot_s:.1f} s of "
-            "robot time. Your nodes compute too long for each message."
+            f"Your nodes have computed for more than {budget_s:g} s after {robot_s:.1f} s of robot "
+            "time. That is too long for each message."
         )
 
 
-class Budget(Frozen):
-    """What wall time there is."""
+class DriveBudget(Frozen):
+    """What nodes may use of a processor, by the kernel's account: a busy machine takes none of it
+    away."""
 
     computing_s: float = 0.5
-    """A tick; then time goes on, and what is computed still counts at a later tick."""
-    cap_s: float = CAP_S
-    """So long nothing may run on and on, through all ticks."""
-    room_s: float = 120.0
-    """The whole room."""
-    pace_s: float = 0.0
-    """No tick is shorter than this."""
+    """Of a processor, a tick. Then robot time goes on: what is computed counts at a later tick.
 
-    def slower(self, times: float, tick_s: float) -> Budget:
+    It is a thread's own time on a processor, the first field of /proc/PID/task/TID/schedstat: Linux
+    writes `se.sum_exec_runtime` there (proc_pid_schedstat of fs/proc/base.c), in nanoseconds
+    (Documentation/scheduler/sched-stats.rst). Waiting for a processor is the second field, and
+    does not count.
+    """
+    cap_s: float = CAP_S
+    """Of a processor: so long nothing may run on and on, through all ticks."""
+    room_s: float = 120.0
+    """Of processors, the whole room: what all nodes have used, together."""
+    pace_s: float = 0.0
+    """Of wall time: no tick is shorter."""
+
+    def slower(self, times: float, tick_s: float) -> DriveBudget:
         """As if the machine were so many times slower than one that takes `tick_s` for a tick."""
-        return Budget(
+        return DriveBudget(
             computing_s=self.computing_s * times,
             cap_s=self.cap_s * times,
             room_s=self.room_s * times,
@@ -57,44 +67,26 @@ class Budget(Frozen):
         )
 
 
-class Plan(Frozen):
-    """A drive: its room, how long, and beside whom."""
+class LockstepPlan(RoomPlan):
+    """A drive beside these nodes."""
 
-    room: int
-    """Its seed."""
     pids: tuple[int, ...]
     """The processes of the nodes, as the world's process sees them; their children belong to
     them."""
     nodes: tuple[str, ...]
     """Their full names; each follows /clock."""
-    length_s: float = 60.0
-    """Of robot time."""
-    period_s: float = 0.05
-    """Of robot time, a tick."""
-    scan_every_ticks: int = 4
-    """The rover's scanner turns five times a second."""
-    command_lasts_s: float = 0.5
-    """Of robot time: the rover then stops by itself."""
-    noise_seed: int = 0
-    """Of the sensors."""
     begins_s: int = BEGINS_S
     """What /clock shows first."""
-    discovery_s: float = 20.0
-    """Of wall time, until all nodes are found."""
-    budget: Budget = Budget()
+    budget: DriveBudget = DriveBudget()
 
     @property
-    def tick_count(self) -> int:
-        """Whole ticks."""
-        return round(self.length_s / self.period_s)
-
-    @property
-    def period_ns(self) -> int:
-        """The same as whole nanoseconds, so that sums are exact."""
-        return round(self.period_s * NS_PER_S)
+    def longest_s(self) -> float:
+        """What it may take of wall time."""
+        room_s = WALL_TIMES * self.budget.room_s
+        return 2 * self.discovery_s + room_s + 2 * self.budget.cap_s
 
 
-class Voice(Protocol):
+class WorldTopics(Protocol):
     """What the world says in ROS, and what it hears."""
 
     def say_odom(self, rover: RoomRover, at_ns: int) -> None:
@@ -106,34 +98,39 @@ class Voice(Protocol):
     def say_clock(self, at_ns: int) -> None:
         """What time it is."""
 
-    def heard(self) -> list[CommandSeen]:
+    def heard(self) -> list[VelocityCommand]:
         """All commands since the last time."""
 
 
 class Lockstep:
     """A room, its rover, and the nodes that drive it."""
 
-    def __init__(self, plan: Plan, voice: Voice, account: Account) -> None:
-        self.plan, self.voice, self.account = plan, voice, account
-        self.rover = RoomRover(room_of(plan.room), plan.noise_seed)
+    def __init__(
+        self, plan: LockstepPlan, world_topics: WorldTopics, account: ThreadAccount
+    ) -> None:
+        self.plan, self.world_topics, self.account = plan, world_topics, account
+        self.driven = DrivenRoomRover(plan, plan.begins_s * NS_PER_S)
         self.watch = Watch(account)
-        self.ticks: list[DriveTick] = []
-        self.refused = 0
-        self._now_ns = plan.begins_s * NS_PER_S
-        self._told_ns = self._now_ns
-        self._quiet_s = time.monotonic()
-        self._began_s = self._quiet_s
+        self._began_s = time.monotonic()
+        self._used_s = 0.0
+        """What the nodes had used before all ticks."""
         self._left_s = 0.0
         """Of what the nodes may compute in this tick."""
+        self._quiet_s = self._began_s
+        self._rest: RanNs = {}
+        """What each thread had run when all were quiet the last time."""
+        self._told_s = 0.0
+        """So much of what was computed since then has been counted in ticks already."""
 
     def begin(self) -> None:
         """The clock starts: what the nodes do at their first sight of it comes before all ticks."""
-        self._quiet_s = time.monotonic()
-        self.voice.say_clock(self._now_ns)
+        self._note_quiet()
+        self._used_s = self.account.used_s()
+        self.world_topics.say_clock(self.driven.now_ns)
         while not self._is_quiet_within(self.plan.budget.computing_s):
             continue
-        self._obey(self.voice.heard())
-        self._began_s = time.monotonic()
+        self.driven.obey(self.world_topics.heard())
+        self._began_s, self._used_s = time.monotonic(), self.account.used_s()
 
     def run(self) -> None:
         """All ticks. Raises NeverQuiet, OverBudget or Gone."""
@@ -142,90 +139,68 @@ class Lockstep:
 
     def tick(self) -> None:
         """One of them."""
+        driven = self.driven
         with self._paced():
             self._left_s = self.plan.budget.computing_s
-            self.voice.say_odom(self.rover, self._now_ns)
+            self.world_topics.say_odom(driven.rover, driven.now_ns)
             late, heard = self._settled()
-            if len(self.ticks) % self.plan.scan_every_ticks == 0:
-                self.voice.say_scan(self.rover, self._now_ns)
+            if driven.scans_now:
+                self.world_topics.say_scan(driven.rover, driven.now_ns)
                 late, heard = self._settled(heard)
-            self.rover.step(self.plan.period_s)
-            self._now_ns += self.plan.period_ns
-            self.voice.say_clock(self._now_ns)
+            driven.step()
+            self.world_topics.say_clock(driven.now_ns)
             late, heard = self._settled(heard)
             self.watch.look()
-            self._stop_without_commands()
-            self._write(heard, late)
+            driven.end_tick(heard, late)
         self._keep_to_budget()
 
-    def drive(self, end: End, why: str = "") -> Drive:
+    def drive(self, end: End, why: str = "") -> LockstepDrive:
         """The record of all that was."""
-        return Drive(
-            room=self.plan.room,
-            period_s=self.plan.period_s,
-            end=end,
-            why=why,
-            ticks=tuple(self.ticks),
-            bumps=tuple(
-                BumpSeen(time_s=b.time_s, x_m=b.pose.x_m, y_m=b.pose.y_m, moving=b.moving)
-                for b in self.rover.bumps
-            ),
-            sleepers=tuple(
-                SleeperSeen(pid=each.pid, ticks=each.ticks, words=each.words)
-                for each in self.watch.sleepers
-            ),
-            refused_commands=self.refused,
-            way_m=self.rover.way_m,
-            wall_s=time.monotonic() - self._began_s,
-        )
+        sleepers = [
+            SleeperSeen(pid=each.pid, ticks=each.ticks, words=each.words, thread=each.thread)
+            for each in self.watch.sleepers
+        ]
+        return self.driven.record(end, why, time.monotonic() - self._began_s, sleepers)
 
     def _settled(
-        self, before: tuple[CommandSeen, ...] = ()
-    ) -> tuple[bool, tuple[CommandSeen, ...]]:
+        self, before: tuple[VelocityCommand, ...] = ()
+    ) -> tuple[bool, tuple[VelocityCommand, ...]]:
         """Wait for quiet, within what is left of the tick; whether it did not come, and what was
         said in this tick so far."""
-        began_s = time.monotonic()
         late = not self._is_quiet_within(self._left_s)
-        self._left_s = max(0.0, self._left_s - (time.monotonic() - began_s))
-        heard = self.voice.heard()
-        self._obey(heard)
+        heard = self.world_topics.heard()
+        self.driven.obey(heard)
         return late, (*before, *heard)
 
     def _is_quiet_within(self, within_s: float) -> bool:
-        """Raises NeverQuiet where nothing has been quiet for too long, through how many ticks."""
-        if self.account.is_quiet_within(within_s):
-            self._quiet_s = time.monotonic()
-            return True
-        waited_s = time.monotonic() - self._quiet_s
-        if waited_s > self.plan.budget.cap_s:
+        """Wait until all is quiet; whether it was before a thread had computed for so long.
+
+        Raises NeverQuiet where nothing has been quiet for too long, through how many ticks.
+        """
+        while not self.account.is_quiet_within(LOOKS_AGAIN_S):
+            computed_s = self._computed_s()
+            self._insist_on_quiet(computed_s)
+            self._keep_to_budget()
+            if computed_s - self._told_s >= within_s:
+                self._left_s, self._told_s = 0.0, computed_s
+                return False
+        self._left_s = max(0.0, within_s - (self._computed_s() - self._told_s))
+        self._note_quiet()
+        return True
+
+    def _note_quiet(self) -> None:
+        self._quiet_s = time.monotonic()
+        self._rest, self._told_s = self.account.ran_ns(), 0.0
+
+    def _insist_on_quiet(self, computed_s: float) -> None:
+        """Raises NeverQuiet."""
+        waited_s, cap_s = time.monotonic() - self._quiet_s, self.plan.budget.cap_s
+        if computed_s > cap_s or waited_s > WALL_TIMES * cap_s:
             raise NeverQuiet(waited_s, self.account.look().busy)
-        return False
 
-    def _obey(self, commands: list[CommandSeen]) -> None:
-        for command in commands:
-            try:
-                self.rover.drive(Motion(command.forward_m_s, command.turn_rad_s))
-            except ValueError:
-                self.refused += 1
-                continue
-            self._told_ns = self._now_ns
-
-    def _stop_without_commands(self) -> None:
-        if self._now_ns - self._told_ns > self.plan.command_lasts_s * NS_PER_S:
-            self.rover.drive(Motion())
-
-    def _write(self, commands: tuple[CommandSeen, ...], late: bool) -> None:
-        pose = self.rover.pose
-        self.ticks.append(
-            DriveTick(
-                time_s=round((len(self.ticks) + 1) * self.plan.period_s, 9),
-                x_m=pose.x_m,
-                y_m=pose.y_m,
-                heading_rad=pose.heading_rad,
-                commands=tuple(filter(_is_finite, commands)),
-                late=late,
-            )
-        )
+    def _computed_s(self) -> float:
+        """The longest that one thread had a processor since all were quiet."""
+        return longest_run_s(self._rest, self.account.ran_ns())
 
     @contextmanager
     def _paced(self) -> Iterator[None]:
@@ -235,9 +210,5 @@ class Lockstep:
         time.sleep(max(0.0, ends_s - time.monotonic()))
 
     def _keep_to_budget(self) -> None:
-        if time.monotonic() - self._began_s > self.plan.budget.room_s:
-            raise OverBudget(self.plan.budget.room_s, len(self.ticks) * self.plan.period_s)
-
-
-def _is_finite(command: CommandSeen) -> bool:
-    return math.isfinite(command.forward_m_s) and math.isfinite(command.turn_rad_s)
+        if self.account.used_s() - self._used_s > self.plan.budget.room_s:
+            raise OverBudget(self.plan.budget.room_s, len(self.driven.ticks) * self.plan.period_s)

@@ -10,22 +10,22 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from roslings.lockstep.record import Drive
-from roslings.lockstep.stepping import Budget
+from roslings.lockstep.record import LockstepDrive
+from roslings.lockstep.stepping import DriveBudget
 
 TIMES_SLOWER = 2.0
 SAME_PLACE_M = 0.05
 SAME_WAY_M = 0.1
 
-Alike = Callable[[Drive, Drive], bool]
+Alike = Callable[[LockstepDrive, LockstepDrive], bool]
 
 
 @dataclass(frozen=True)
 class Believed:
     """One or two drives, and whether the first tells how the nodes drive."""
 
-    first: Drive
-    second: Drive | None
+    first: LockstepDrive
+    second: LockstepDrive | None
     """None where the first was enough to see that real time must judge."""
     why_not: str = ""
     """Empty where it is believed."""
@@ -37,10 +37,12 @@ class Believed:
 
 
 def drive_twice(
-    run: Callable[[Budget], Drive], budget: Budget | None = None, alike: Alike | None = None
+    run: Callable[[DriveBudget], LockstepDrive],
+    budget: DriveBudget | None = None,
+    alike: Alike | None = None,
 ) -> Believed:
     """`run` starts the nodes afresh and drives the same room; `alike` compares two outcomes."""
-    budget = budget or Budget()
+    budget = budget or DriveBudget()
     first = run(budget)
     if first.end != "done":
         return Believed(first, None, first.why)
@@ -57,7 +59,7 @@ def drive_twice(
     )
 
 
-def ends_alike(first: Drive, second: Drive) -> bool:
+def ends_alike(first: LockstepDrive, second: LockstepDrive) -> bool:
     """As many bumps, as long a way, the same place at the end."""
     if first.end != second.end or len(first.bumps) != len(second.bumps):
         return False

@@ -13,7 +13,7 @@ from typing import Any, Literal
 from ros2_on_pip.rosbag2.definition import definition_of
 from roslings.evidence import Endpoint, ExperimentSeen, Qos, Spoken
 from roslings.probe.content import from_plain
-from roslings.probe.recorder import Recorder
+from roslings.probe.recorder import TopicRecorder
 from roslings.probe.wall_clock import to_wall_ns
 
 VERSION: Literal[9] = 9
@@ -24,7 +24,7 @@ LEFT_OUT = "left_out"
 
 
 @dataclass(frozen=True)
-class Line:
+class BagMessage:
     """One message of the bag: when it was sent (wall clock), where, and its bytes."""
 
     stamp_ns: int
@@ -34,7 +34,7 @@ class Line:
     qos: tuple[Qos, ...] = ()
 
 
-def write_bag(folder: Path, seen: ExperimentSeen, recorders: Mapping[str, Recorder]) -> None:
+def write_bag(folder: Path, seen: ExperimentSeen, recorders: Mapping[str, TopicRecorder]) -> None:
     """Write what the nodes and the grader said into the new folder `folder`.
 
     Messages count in the order of their source stamps. The bag ends at MOST_BYTES; how many did
@@ -57,14 +57,14 @@ def fresh_folder(folder: Path) -> Path:
     return folder
 
 
-def _lines(seen: ExperimentSeen, recorders: Mapping[str, Recorder]) -> Iterator[Line]:
+def _lines(seen: ExperimentSeen, recorders: Mapping[str, TopicRecorder]) -> Iterator[BagMessage]:
     later_ns = to_wall_ns()
     for recorder in recorders.values():
         topic = recorder.seen
         qos = tuple(e.qos for e in seen.graph.endpoints if _publishes(e, topic.name))
         for message, raw in recorder.raw_messages():
             stamp_ns = message.source_ns or message.arrival_ns + later_ns
-            yield Line(stamp_ns, topic.name, topic.type, raw, qos)
+            yield BagMessage(stamp_ns, topic.name, topic.type, raw, qos)
     for spoken in seen.spoken:
         yield _spoken_line(spoken, later_ns)
 
@@ -73,14 +73,14 @@ def _publishes(endpoint: Endpoint, topic: str) -> bool:
     return endpoint.kind == "publisher" and endpoint.topic == topic
 
 
-def _spoken_line(spoken: Spoken, later_ns: int) -> Line:
+def _spoken_line(spoken: Spoken, later_ns: int) -> BagMessage:
     from rclpy.serialization import serialize_message
 
     raw = serialize_message(from_plain(spoken.type, spoken.content))
-    return Line(spoken.sent_ns + later_ns, spoken.topic, spoken.type, raw, (spoken.offered,))
+    return BagMessage(spoken.sent_ns + later_ns, spoken.topic, spoken.type, raw, (spoken.offered,))
 
 
-def _within(lines: Iterable[Line], most_bytes: int) -> list[Line]:
+def _within(lines: Iterable[BagMessage], most_bytes: int) -> list[BagMessage]:
     """The first ones, as many as find room."""
     kept, size = [], 0
     for line in lines:
@@ -91,13 +91,13 @@ def _within(lines: Iterable[Line], most_bytes: int) -> list[Line]:
     return kept
 
 
-def _count(seen: ExperimentSeen, recorders: Mapping[str, Recorder]) -> int:
+def _count(seen: ExperimentSeen, recorders: Mapping[str, TopicRecorder]) -> int:
     """All messages, those without bytes too."""
     topics = [recorder.seen for recorder in recorders.values()]
     return sum(len(t.messages) + t.not_kept for t in topics) + len(seen.spoken)
 
 
-def _write(folder: Path, lines: Iterable[Line], missing: int) -> None:
+def _write(folder: Path, lines: Iterable[BagMessage], missing: int) -> None:
     from rosbags.rosbag2 import StoragePlugin, Writer
 
     connections: dict[tuple[str, str], Any] = {}
@@ -111,7 +111,7 @@ def _write(folder: Path, lines: Iterable[Line], missing: int) -> None:
             writer.set_custom_data(LEFT_OUT, str(missing))
 
 
-def _connection(writer: Any, line: Line) -> Any:
+def _connection(writer: Any, line: BagMessage) -> Any:
     definition = definition_of(line.type)
     return writer.add_connection(
         line.topic,

@@ -15,7 +15,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from roslings.evidence import Dropped, Kind
+from roslings.evidence import DroppedSeen, Kind
 
 MB = 1024 * 1024
 EXPERIMENT_BYTES = 40 * MB
@@ -34,10 +34,10 @@ MARKS = 4
 """JSON's quotes, colon and comma beside a name."""
 
 
-class Budget:
+class ByteBudget:
     """So many bytes, taken by several threads; what is taken of it is taken of `whole`, too."""
 
-    def __init__(self, most_bytes: int, whole: Budget | None = None) -> None:
+    def __init__(self, most_bytes: int, whole: ByteBudget | None = None) -> None:
         self._whole = whole
         self._lock = Lock()
         self.left = most_bytes
@@ -64,7 +64,7 @@ class Share:
     is kept is the beginning, without a gap.
     """
 
-    def __init__(self, shared: Budget, own_bytes: int) -> None:
+    def __init__(self, shared: ByteBudget, own_bytes: int) -> None:
         self._shared = shared
         self._own_left = own_bytes if shared.take(own_bytes) else 0
         self.full = False
@@ -93,15 +93,15 @@ class Share:
 class Store:
     """What the evidence of one experiment may keep, and what found no room in it."""
 
-    def __init__(self, whole: Budget | None = None, large_bytes: int = 0) -> None:
+    def __init__(self, whole: ByteBudget | None = None, large_bytes: int = 0) -> None:
         """`large_bytes` are for messages too large to be read, which are kept for a bag alone.
 
         Half of what is left of the whole stays for the experiments after this one.
         """
         most_bytes = EXPERIMENT_BYTES if whole is None else min(EXPERIMENT_BYTES, whole.left // 2)
-        self.budget = Budget(most_bytes, whole)
-        self.large = Budget(large_bytes)
-        self._dropped: dict[Kind, Dropped] = {}
+        self.budget = ByteBudget(most_bytes, whole)
+        self.large = ByteBudget(large_bytes)
+        self._dropped: dict[Kind, DroppedSeen] = {}
         self._shares: list[Share] = []
 
     def share(self, own_bytes: int) -> Share:
@@ -119,7 +119,7 @@ class Store:
 
     def drop(self, kind: Kind, count: int, size: int = 0) -> None:
         """Note what is not kept."""
-        dropped = self._dropped.setdefault(kind, Dropped(kind=kind))
+        dropped = self._dropped.setdefault(kind, DroppedSeen(kind=kind))
         dropped.count += count
         dropped.bytes += size
 
@@ -127,7 +127,7 @@ class Store:
         """How many of a kind found no room so far."""
         return self._dropped[kind].count if kind in self._dropped else 0
 
-    def close(self) -> list[Dropped]:
+    def close(self) -> list[DroppedSeen]:
         """Nothing more will come: what was dropped."""
         for share in self._shares:
             share.close()

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from roslings.evidence import Tick
-from roslings.probe.events import no_mouth_events
+from roslings.probe.events import no_publisher_events
 
 TRIPS = 2
 """After one round trip the node has taken the tick; after two it has run what became due.
@@ -24,12 +24,14 @@ LOOK_AGAIN_S = 0.05
 class Barrier:
     """Shows that nodes have handled what came to them: each answers requests for a parameter."""
 
-    def __init__(self, eye: Any, nodes: Sequence[str]) -> None:
+    def __init__(self, probe_node: Any, nodes: Sequence[str]) -> None:
         from rcl_interfaces.srv import GetParameters
 
-        self._eye = eye
+        self._node = probe_node
         self._request = GetParameters.Request(names=["use_sim_time"])
-        self._clients = [eye.create_client(GetParameters, f"{n}/get_parameters") for n in nodes]
+        self._clients = [
+            probe_node.create_client(GetParameters, f"{n}/get_parameters") for n in nodes
+        ]
         self._passed = threading.Event()
         self._left = 0
         self.lives: Callable[[], bool] = lambda: True
@@ -64,7 +66,7 @@ class Barrier:
     def close(self) -> None:
         """Forget the nodes."""
         for client in self._clients:
-            self._eye.destroy_client(client)
+            self._node.destroy_client(client)
 
     def _trip(self, client: Any, trips: int) -> None:
         """One request; its answer, in the probe's thread, starts the next one."""
@@ -86,7 +88,7 @@ class Barrier:
 class SimClock:
     """Robot time, as the nodes of one experiment see it."""
 
-    def __init__(self, eye: Any, ticks: list[Tick]) -> None:
+    def __init__(self, probe_node: Any, ticks: list[Tick]) -> None:
         from rclpy.qos import QoSProfile, ReliabilityPolicy
         from rosgraph_msgs.msg import Clock
 
@@ -96,8 +98,8 @@ class SimClock:
         self._message = Clock
         # As a simulator has it (rclpy's own time source asks for best effort, depth 1).
         quality = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-        self._publisher = eye.create_publisher(
-            Clock, "/clock", quality, event_callbacks=no_mouth_events()
+        self._publisher = probe_node.create_publisher(
+            Clock, "/clock", quality, event_callbacks=no_publisher_events()
         )
 
     @property
@@ -121,7 +123,7 @@ class SimClock:
     def _begin_ns(self) -> int:
         """Where a computer's clock stands, so that `now - Duration(...)` is a time.
 
-        A timer of ROS keeps to multiples of its period since its node's clock showed 0: where the
+        A timer of ROS keeps to multiples of its period since its node's clock showed 0. Where the
         grid is that period, it speaks at steps of the clock, and never late between two of them.
         """
         return time.time_ns() // self.grid_ns * self.grid_ns

@@ -9,7 +9,7 @@ from typing import Any
 
 _loading = threading.RLock()
 """Experiments run side by side. A service marks itself as loaded before its request and its
-response are: who looks in between believes it is whole, and sends what nobody can convert."""
+response are. Who looks in between believes it is whole, and sends what nobody can convert."""
 
 LONGEST_TEXT = 4096
 LONGEST_LIST = 64

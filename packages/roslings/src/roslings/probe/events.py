@@ -8,14 +8,14 @@ from __future__ import annotations
 from typing import Any
 
 
-def no_ear_events() -> Any:
+def no_subscription_events() -> Any:
     """For a subscription: rclpy's SubscriptionEventCallbacks."""
     from rclpy.event_handler import SubscriptionEventCallbacks
 
     return SubscriptionEventCallbacks(use_default_callbacks=False)
 
 
-def no_mouth_events() -> Any:
+def no_publisher_events() -> Any:
     """For a publisher: rclpy's PublisherEventCallbacks."""
     from rclpy.event_handler import PublisherEventCallbacks
 

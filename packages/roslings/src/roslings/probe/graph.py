@@ -1,4 +1,4 @@
-"""Read the ROS graph through one node's eyes."""
+"""Read the ROS graph as one node sees it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from itertools import takewhile
 from typing import Any, Literal, NamedTuple, TypeVar
 
 from roslings.evidence import Endpoint, GraphSeen, Qos
-from roslings.probe.budget import MB, Budget, size_of
+from roslings.probe.budget import MB, ByteBudget, size_of
 
 MOST_BYTES = 4 * MB
 """Of a graph: some 4,000 endpoints."""
@@ -18,7 +18,7 @@ UNNAMED = "_NODE_NAME_UNKNOWN_"
 T = TypeVar("T")
 
 
-class Outline(NamedTuple):
+class GraphOutline(NamedTuple):
     """All that is quick to read; `counts` are publishers and subscriptions, topic by topic."""
 
     nodes: list[tuple[str, str]]
@@ -32,7 +32,7 @@ class Outline(NamedTuple):
         return len(self.nodes) + len(self.services) + sum(map(sum, self.counts))
 
 
-class Room(Budget):
+class GraphBudget(ByteBudget):
     """A budget that remembers whether it had to refuse something."""
 
     refused = False
@@ -50,30 +50,30 @@ class Looker:
     To read all endpoints takes rclpy ten times as long as to count them.
     """
 
-    def __init__(self, eye: Any, most_bytes: int = MOST_BYTES) -> None:
-        self._eye, self._most_bytes = eye, most_bytes
-        self._outline: Outline | None = None
+    def __init__(self, probe_node: Any, most_bytes: int = MOST_BYTES) -> None:
+        self._node, self._most_bytes = probe_node, most_bytes
+        self._outline: GraphOutline | None = None
         self._all_named = False
         self.left_out = 0
         """Names and endpoints that found no room in the graph that was read last."""
 
     def changed(self) -> GraphSeen | None:
         """The graph; None where it is what was read last."""
-        outline = outline_of(self._eye)
+        outline = outline_of(self._node)
         if self._all_named and outline == self._outline:
             return None
         return self._read(outline)
 
     def read(self) -> GraphSeen:
         """The graph, whatever was read before."""
-        return self._read(outline_of(self._eye))
+        return self._read(outline_of(self._node))
 
-    def _read(self, outline: Outline) -> GraphSeen:
+    def _read(self, outline: GraphOutline) -> GraphSeen:
         """`outline` is older: what comes meanwhile is seen next time."""
-        room = Room(self._most_bytes)
+        room = GraphBudget(self._most_bytes)
         names = (join(space, name) for name, space in outline.nodes)
         nodes = list(_fitting(names, room))
-        found = list(_fitting(_endpoints(self._eye, outline), room))
+        found = list(_fitting(_endpoints(self._node, outline), room))
         services = dict(_fitting(((name, list(types)) for name, types in outline.services), room))
         self._outline = outline
         self._all_named = all(each.node.rpartition("/")[2] != UNNAMED for each in found)
@@ -87,25 +87,23 @@ class Looker:
         )
 
 
-def _fitting(records: Iterable[T], room: Budget) -> Iterator[T]:
+def _fitting(records: Iterable[T], room: ByteBudget) -> Iterator[T]:
     """The first ones, as many as find room."""
     return takewhile(lambda each: room.take(size_of(each)), records)
 
 
-def outline_of(eye: Any) -> Outline:
-    """The outline of the graph as node `eye` sees it."""
-    topics = eye.get_topic_names_and_types()
-    return Outline(
-        nodes=eye.get_node_names_and_namespaces(),
+def outline_of(probe_node: Any) -> GraphOutline:
+    """The outline of the graph as node `probe_node` sees it."""
+    topics = probe_node.get_topic_names_and_types()
+    return GraphOutline(
+        nodes=probe_node.get_node_names_and_namespaces(),
         topics=topics,
-        services=eye.get_service_names_and_types(),
-        counts=[(eye.count_publishers(name), eye.count_subscribers(name)) for name, _ in topics],
+        services=probe_node.get_service_names_and_types(),
+        counts=[
+            (probe_node.count_publishers(name), probe_node.count_subscribers(name))
+            for name, _ in topics
+        ],
     )
-
-
-def read_graph(eye: Any) -> GraphSeen:
-    """The graph as node `eye` sees it, without `eye` itself and without hidden nodes."""
-    return Looker(eye).read()
 
 
 def join(namespace: str, name: str) -> str:
@@ -118,11 +116,11 @@ def is_hidden(full_name: str) -> bool:
     return full_name.rpartition("/")[2].startswith("_")
 
 
-def _endpoints(eye: Any, outline: Outline) -> Iterator[Endpoint]:
+def _endpoints(probe_node: Any, outline: GraphOutline) -> Iterator[Endpoint]:
     for topic, _ in outline.topics:
-        for info in eye.get_publishers_info_by_topic(topic):
+        for info in probe_node.get_publishers_info_by_topic(topic):
             yield _endpoint("publisher", topic, info)
-        for info in eye.get_subscriptions_info_by_topic(topic):
+        for info in probe_node.get_subscriptions_info_by_topic(topic):
             yield _endpoint("subscription", topic, info)
 
 

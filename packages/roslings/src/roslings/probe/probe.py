@@ -18,16 +18,16 @@ from roslings.evidence import (
     Qos,
     Spoken,
 )
-from roslings.matching import own_endpoints
 from roslings.probe import canary
-from roslings.probe.budget import MB, Budget, Share, Store, size_of
+from roslings.probe.budget import MB, ByteBudget, Share, Store, size_of
 from roslings.probe.clock import Barrier, SimClock
 from roslings.probe.content import from_plain
-from roslings.probe.ear import Ear, Queues
-from roslings.probe.events import no_mouth_events
+from roslings.probe.events import no_publisher_events
 from roslings.probe.graph import MOST_BYTES, Looker
-from roslings.probe.recorder import Read, Recorder, can_record
-from roslings.rates import place_on_ticks
+from roslings.probe.raw_subscription import RawSubscription, SubscriptionQueues
+from roslings.probe.recorder import Read, TopicRecorder, can_record
+from roslings.seen.matching import own_endpoints
+from roslings.seen.rates import place_on_ticks
 
 NAME = "_roslings_probe"
 LOOK_EVERY_S = 0.04
@@ -63,8 +63,8 @@ class Probe:
         seen: ExperimentSeen,
         record: bool = True,
         large_bytes: int = 0,
-        whole: Budget | None = None,
-        queues: Budget | None = None,
+        whole: ByteBudget | None = None,
+        queues: ByteBudget | None = None,
     ) -> None:
         """With `record` off it looks at the graph and hears no message.
 
@@ -75,10 +75,10 @@ class Probe:
         self._records = record
         self._domain_id = domain_id
         self.store = Store(whole, large_bytes)
-        self._queues = Queues(queues)
+        self._queues = SubscriptionQueues(queues)
         self._loggers: dict[str, Share] = {}
         self._unheard: set[str] = set()
-        self._recorders: dict[str, Recorder] = {}
+        self._recorders: dict[str, TopicRecorder] = {}
         self._publishers: dict[str, Any] = {}
         self._readers: dict[str, Read] = {}
         self._changed = threading.Condition()
@@ -96,7 +96,7 @@ class Probe:
 
         self._context = rclpy.Context()
         rclpy.init(context=self._context, domain_id=self._domain_id, signal_handler_options=None)
-        self._eye = Node(
+        self._node = Node(
             NAME,
             context=self._context,
             enable_rosout=False,
@@ -104,9 +104,9 @@ class Probe:
             parameter_overrides=[Parameter("start_type_description_service", value=False)],
         )
         self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self._eye)
+        self._executor.add_node(self._node)
         self._graph_bytes = MOST_BYTES if self.store.budget.take(MOST_BYTES) else 0
-        self._looker = Looker(self._eye, self._graph_bytes)
+        self._looker = Looker(self._node, self._graph_bytes)
         self._left_out = 0
         self._hear_logs()
         self._threads = [
@@ -128,7 +128,7 @@ class Probe:
         for thread in self._threads:
             thread.join()
         self._executor.shutdown()
-        self._eye.destroy_node()
+        self._node.destroy_node()
         self._context.try_shutdown()
         self._queues.close()
         for name, recorder in self._recorders.items():
@@ -142,14 +142,14 @@ class Probe:
         self.seen.dropped = self.store.close()
 
     @property
-    def recorders(self) -> Mapping[str, Recorder]:
+    def recorders(self) -> Mapping[str, TopicRecorder]:
         """What was heard, topic by topic, with the bytes as they came."""
         return self._recorders
 
     @property
-    def eye(self) -> Any:
+    def node(self) -> Any:
         """The rclpy node behind the probe, for what else of it is to be used."""
-        return self._eye
+        return self._node
 
     def until(self, condition: Condition, within_s: float) -> bool:
         """Watch until `condition()` is true, at most `within_s`. Whether it became true.
@@ -178,7 +178,7 @@ class Probe:
     def look(self) -> GraphSeen:
         """Read the graph if it has changed, and start to record what is new in it.
 
-        The fullest graph is the one that is kept: a node that crashes leaves the graph before its
+        The fullest graph is the one that is kept. A node that crashes leaves the graph before its
         process ends, and must not blur what was there.
         """
         began_s = time.monotonic()
@@ -199,7 +199,7 @@ class Probe:
         for endpoint in own_endpoints(graph):
             if self._records and endpoint.kind == "publisher":
                 self._record(endpoint)
-        if self.seen.canary and self._eye.count_publishers(canary.TOPIC) > self._canaries:
+        if self.seen.canary and self._node.count_publishers(canary.TOPIC) > self._canaries:
             self.seen.canary.imitated = True
 
     def count(self, topic: str) -> int:
@@ -230,8 +230,8 @@ class Probe:
     def between_waits(self, work: Callable[[], object]) -> None:
         """Have the probe's own thread do this, and wait until it has.
 
-        What an executor waits for can go in between only: an action server that goes meanwhile
-        ends the thread (rclpy's `add_to_wait_set` takes it without holding it).
+        What an executor waits for can go in between only. An action server that goes meanwhile ends
+        the thread (rclpy's `add_to_wait_set` takes it without holding it).
         """
         done = threading.Event()
 
@@ -244,29 +244,29 @@ class Probe:
         self._executor.create_task(turn)
         done.wait(BETWEEN_WITHIN_S)
 
-    def say(self, ear: Endpoint, content: dict[str, Any], within_s: float) -> Spoken:
-        """Send one message to the subscription `ear`, with the quality of service it asks for.
+    def say(self, subscription: Endpoint, content: dict[str, Any], within_s: float) -> Spoken:
+        """Send one message to `subscription`, with the quality of service it asks for.
 
         It is sent when the two are matched, or after `within_s`. Raises UnknownType.
         """
-        sent_ns, matched = self.send(ear, from_plain(ear.type, content), within_s)
+        sent_ns, matched = self.send(subscription, from_plain(subscription.type, content), within_s)
         spoken = Spoken(
-            topic=ear.topic,
-            type=ear.type,
+            topic=subscription.topic,
+            type=subscription.type,
             content=content,
             sent_ns=sent_ns,
             matched=matched,
-            offered=ear.qos,
+            offered=subscription.qos,
         )
         self.seen.spoken.append(spoken)
         return spoken
 
-    def send(self, ear: Endpoint, message: Any, within_s: float) -> tuple[int, bool]:
-        """Send a ROS message to `ear` as `say` does, and write nothing down.
+    def send(self, subscription: Endpoint, message: Any, within_s: float) -> tuple[int, bool]:
+        """Send a ROS message to `subscription` as `say` does, and write nothing down.
 
         When it was sent (monotonic, ns), and whether somebody was there to hear it.
         """
-        publisher = self._publisher_for(ear)
+        publisher = self._publisher_for(subscription)
         matched = self.until(lambda: publisher.get_subscription_count() > 0, within_s)
         sent_ns = time.monotonic_ns()  # before it is sent: an answer can be back at once
         publisher.publish(message)
@@ -292,7 +292,7 @@ class Probe:
     @contextmanager
     def barrier(self, nodes: Sequence[str]) -> Iterator[Barrier]:
         """What shows that `nodes` have kept up."""
-        barrier = Barrier(self._eye, nodes)
+        barrier = Barrier(self._node, nodes)
         try:
             yield barrier
         finally:
@@ -300,13 +300,13 @@ class Probe:
 
     def clock(self) -> SimClock:
         """Become the source of simulated time in this domain."""
-        return SimClock(self._eye, self.seen.ticks)
+        return SimClock(self._node, self.seen.ticks)
 
     def listen_to_canary(self, hz: float) -> None:
         """Record what the canary says, beside the graph that the student's nodes are in."""
         self._canaries += 1
         self.seen.canary = CanarySeen(wanted_hz=hz)
-        mouth = Endpoint(
+        canary_end = Endpoint(
             kind="publisher",
             node=f"/{canary.NODE}",
             topic=canary.TOPIC,
@@ -314,20 +314,22 @@ class Probe:
             qos=Qos(),
             gid="canary",
         )
-        self._canary = Recorder(self._eye, mouth, self.notify, self.store, queues=self._queues)
+        self._canary = TopicRecorder(
+            self._node, canary_end, self.notify, self.store, queues=self._queues
+        )
         self.seen.canary.messages = self._canary.seen.messages
 
-    def _publisher_for(self, ear: Endpoint) -> Any:
-        if ear.gid not in self._publishers:
+    def _publisher_for(self, subscription: Endpoint) -> Any:
+        if subscription.gid not in self._publishers:
             from roslings.probe.content import message_class
 
-            self._publishers[ear.gid] = self._eye.create_publisher(
-                message_class(ear.type),
-                ear.topic,
-                offering(ear.qos),
-                event_callbacks=no_mouth_events(),
+            self._publishers[subscription.gid] = self._node.create_publisher(
+                message_class(subscription.type),
+                subscription.topic,
+                offering(subscription.qos),
+                event_callbacks=no_publisher_events(),
             )
-        return self._publishers[ear.gid]
+        return self._publishers[subscription.gid]
 
     def _record(self, endpoint: Endpoint) -> None:
         if endpoint.topic in self._recorders or not can_record(endpoint):
@@ -335,8 +337,8 @@ class Probe:
         if len(self._recorders) == MOST_TOPICS:
             self._unheard.add(endpoint.topic)
             return
-        self._recorders[endpoint.topic] = Recorder(
-            self._eye, endpoint, self.notify, self.store, self._readers, self._queues
+        self._recorders[endpoint.topic] = TopicRecorder(
+            self._node, endpoint, self.notify, self.store, self._readers, self._queues
         )
 
     def _hear_logs(self) -> None:
@@ -344,7 +346,7 @@ class Probe:
         from rclpy.qos import DurabilityPolicy, QoSProfile
 
         kept = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self._logs = Ear(self._eye, Log, "/rosout", self._take_log, kept, self._queues)
+        self._logs = RawSubscription(self._node, Log, "/rosout", self._take_log, kept, self._queues)
 
     def _take_log(self, raw: bytes, info: Any) -> None:
         from rcl_interfaces.msg import Log

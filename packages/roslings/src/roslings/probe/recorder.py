@@ -8,7 +8,12 @@ from typing import Any
 from roslings.evidence import Endpoint, MessageSeen, TopicSeen
 from roslings.probe.budget import Store, size_of
 from roslings.probe.content import UnknownType, message_class, to_plain
-from roslings.probe.ear import QUEUE_DEPTH, Ear, Queues, arrival_ns
+from roslings.probe.raw_subscription import (
+    QUEUE_DEPTH,
+    RawSubscription,
+    SubscriptionQueues,
+    arrival_ns,
+)
 
 MOST_MESSAGES = 20_000
 LARGEST_CONTENT = 64 * 1024
@@ -25,17 +30,17 @@ Read = Callable[[Any], Any]
 """Makes the plain values of a message that are to be kept."""
 
 
-class Recorder:
+class TopicRecorder:
     """One subscription of the probe's; it takes bytes, and reads them when there is time."""
 
     def __init__(
         self,
-        eye: Any,
+        probe_node: Any,
         endpoint: Endpoint,
         heard: Callable[[], None],
         store: Store | None = None,
         readers: Mapping[str, Read] | None = None,
-        queues: Queues | None = None,
+        queues: SubscriptionQueues | None = None,
     ) -> None:
         """Keeps what `store` has room for; `queues` is what the middleware may hold for us.
 
@@ -51,13 +56,13 @@ class Recorder:
         self._share = self._store.share(OWN_BYTES)
         self._readers = {} if readers is None else readers
         self._raw: list[bytes] = []
-        self._ear = Ear(
-            eye,
+        self._subscription = RawSubscription(
+            probe_node,
             self._class,
             endpoint.topic,
             self._take,
             _matching_qos(endpoint),
-            queues or Queues(),
+            queues or SubscriptionQueues(),
         )
 
     @property
@@ -102,7 +107,7 @@ class Recorder:
     @property
     def connected(self) -> bool:
         """A publisher and this subscription have found each other: what it sends is heard."""
-        return self._ear.connected
+        return self._subscription.connected
 
     def raw_messages(self) -> Iterator[tuple[MessageSeen, bytes]]:
         """Each message whose bytes were kept, and these, as they came."""
@@ -110,7 +115,7 @@ class Recorder:
 
     def read_contents(self) -> None:
         """Turn the bytes into values, after the watch, so that reading delays no message."""
-        self.seen.cut_short = self._ear.cut_short
+        self.seen.cut_short = self._subscription.cut_short
         for message, raw in zip(self.seen.messages, self._raw, strict=True):
             if message.content is None:
                 message.content = self._content(raw) if 0 < len(raw) <= LARGEST_CONTENT else None

@@ -11,7 +11,7 @@ def to_wall_ns() -> int:
     """What a monotonic time lacks to be the wall clock's, now.
 
     Between a look at the one and a look at the other, a busy computer may keep this thread from
-    running for milliseconds; so the closest of some pairs counts.
+    running for milliseconds. So the closest of some pairs counts.
     """
     return min(_pair() for _ in range(PAIRS))[1]
 

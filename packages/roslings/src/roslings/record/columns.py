@@ -18,7 +18,7 @@ is the number of its `rows` beside a column of them. A column has one of these f
     {"decimals": n, "whole": column}        numbers of n decimals, without their point
     {"pieces": [column, ...]}               texts, in pieces: between numbers, number, and so on
 
-What fits no form is written one by one, so nothing is lost: numbers keep their kind, zeros their
+What fits no form is written one by one, so nothing is lost. Numbers keep their kind, zeros their
 sign, and objects the order of their names. `writing.py` chooses, `reading.py` reads.
 """
 

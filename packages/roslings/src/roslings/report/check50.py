@@ -19,7 +19,7 @@ PASSED = {"pass": True, "fail": False}
 
 
 def write_check50(told: Verdict | Refusal, path: Path) -> None:
-    """Write a verdict, or why there is none, to `path`. Raises CannotWrite."""
+    """Write a verdict, or why there is none, to `path`. Raises CannotWriteFile."""
     table = refused(told) if isinstance(told, Refusal) else check50_of(told)
     text = json.dumps(table, indent=2, ensure_ascii=True)
     write_whole(path, f"{text}\n".encode())

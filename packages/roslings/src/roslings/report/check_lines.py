@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ros2_on_pip.language import Text, said
 from roslings.report.log_lines import helpful
+from roslings.report.often_said import EXPECTED, MEASURED, READ, TRY, WHY
 from roslings.report.page import Page
 from roslings.verdict import CheckOutcome, CheckResult, Verdict
 
-WORDS: dict[CheckOutcome, str] = {
-    "pass": "pass",
-    "fail": "fail",
-    "skip": "skip",
-    "inconclusive": "open",
+WORDS: dict[CheckOutcome, Text] = {
+    "pass": Text("verdict.mark.pass", "pass"),
+    "fail": Text("verdict.mark.fail", "fail"),
+    "skip": Text("verdict.mark.skip", "skip"),
+    "inconclusive": Text("verdict.mark.open", "open"),
 }
 STYLES: dict[CheckOutcome, str] = {
     "pass": "green",
@@ -26,8 +28,11 @@ INDENT = 2
 
 def put_title(page: Page, verdict: Verdict) -> None:
     """What was checked, and how long that took."""
+    title = said(
+        "verdict.title", "Lab {lab}, package {package}", lab=verdict.lab, package=verdict.package
+    )
     seconds = f", {verdict.seconds.total:.1f} s" if verdict.seconds.total else ""
-    page.line(f"Lab {verdict.lab}, package {verdict.package}{seconds}", "bold")
+    page.line(title + seconds, "bold")
 
 
 def points_of(check: CheckResult) -> str:
@@ -61,16 +66,16 @@ def put_together(page: Page, checks: Sequence[CheckResult]) -> None:
 def put_details(page: Page, check: CheckResult, package: str) -> None:
     """All that a verdict says of one check, each part with its label."""
     parts = {
-        "expected": check.expected,
-        "measured": check.measured,
-        "why": check.why,
-        "try": check.hint,
+        EXPECTED: check.expected,
+        MEASURED: check.measured,
+        WHY: check.why,
+        TRY: check.hint,
     }
     for label, text in parts.items():
         if text:
-            page.labelled(label, page.typed.told(text), indent=INDENT)
+            page.labelled(label, page.command_line.told(text), indent=INDENT)
     if check.lesson:
-        page.lesson("read", check.lesson, indent=INDENT)
+        page.lesson(READ, check.lesson, indent=INDENT)
     _put_log(page, check.log, package)
 
 
@@ -89,4 +94,4 @@ def _title(check: CheckResult) -> str:
 def _put_log(page: Page, log: Sequence[str], package: str) -> None:
     lines = helpful(log, package, LOG_LINES)
     if lines:
-        page.boxed("The last lines that came out", lines, indent=INDENT)
+        page.boxed(said("verdict.last_lines", "The last lines that came out"), lines, indent=INDENT)

@@ -25,7 +25,7 @@ WHOLE = 100
 
 
 def write_classroom(told: Verdict | Refusal, path: Path) -> None:
-    """Write a verdict, or why there is none, to `path`. Raises CannotWrite."""
+    """Write a verdict, or why there is none, to `path`. Raises CannotWriteFile."""
     table = refused(told) if isinstance(told, Refusal) else classroom_of(told)
     write_whole(path, f"{json.dumps(table, indent=2, ensure_ascii=True)}\n".encode())
 
@@ -42,7 +42,7 @@ def classroom_of(verdict: Verdict) -> dict[str, Any]:
                 "status": "error",
                 "score": 0,
                 "max_score": 0,
-                "message": INCONCLUSIVE,
+                "message": str(INCONCLUSIVE),
             },
             *tests,
         ]

@@ -14,7 +14,7 @@ from ros2_on_pip.typed_paths import from_here, quoted_from_here
 from roslings.evidence import Evidence
 from roslings.report.evidence_file import FILE, evidence_bytes
 from roslings.report.node_logs import logs_of
-from roslings.report.whole_file import CannotWrite
+from roslings.report.whole_file import CannotWriteFile
 
 BAGS, LOGS = "bags", "logs"
 LONGEST_NAME = 100
@@ -82,7 +82,7 @@ def _part(folder: Path) -> Path:
 def in_the_making(folder: Path) -> Iterator[Path]:
     """A hidden folder beside `folder`, which takes its name when the block ends well.
 
-    Raises CannotKeepThere where somebody made `folder` meanwhile, and CannotWrite.
+    Raises CannotKeepThere where somebody made `folder` meanwhile, and CannotWriteFile.
     """
     part = _part(folder)
     try:
@@ -92,7 +92,7 @@ def in_the_making(folder: Path) -> Iterator[Path]:
     except OSError as error:
         if _taken(folder):
             require_free(folder)
-        raise CannotWrite(folder, error) from error
+        raise CannotWriteFile(folder, error) from error
     finally:
         shutil.rmtree(part, ignore_errors=True)
 

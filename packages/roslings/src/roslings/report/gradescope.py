@@ -21,7 +21,7 @@ STATUS = {"pass": "passed", "fail": "failed"}
 
 
 def write_gradescope(told: Verdict | Refusal, path: Path) -> None:
-    """Write a verdict, or why there is none, to `path`. Raises CannotWrite."""
+    """Write a verdict, or why there is none, to `path`. Raises CannotWriteFile."""
     table = refused(told) if isinstance(told, Refusal) else gradescope_of(told)
     text = json.dumps(table, indent=2, ensure_ascii=True)
     write_whole(path, f"{text}\n".encode())

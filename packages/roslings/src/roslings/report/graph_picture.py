@@ -37,7 +37,7 @@ def draw_graph(
 ) -> None:
     """Draw `graph` into the PNG `path`, with its description as metadata; make its folder.
 
-    Raises FileExistsError without `overwrite`, NotAPng, CannotWrite; ModuleNotFoundError where
+    Raises FileExistsError without `overwrite`, NotAPng, CannotWriteFile; ModuleNotFoundError where
     matplotlib (the group `graph`) is not installed.
     """
     if path.suffix.lower() != ".png":
@@ -53,9 +53,9 @@ def _png(graph: Graph, title: str | None, show_hidden: bool) -> bytes:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    from roslings.report.graph_sheet import Sheet
+    from roslings.report.graph_sheet import GraphSheet
 
-    sheet = Sheet(shape_of(graph, show_hidden=show_hidden), title)
+    sheet = GraphSheet(shape_of(graph, show_hidden=show_hidden), title)
     figure = Figure(
         figsize=(sheet.width / 72, sheet.height / 72),
         dpi=min(DPI, MOST_PIXELS * 72 / max(sheet.width, sheet.height)),

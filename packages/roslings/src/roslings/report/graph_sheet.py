@@ -13,11 +13,12 @@ from matplotlib.patches import Ellipse, PathPatch, Polygon, Rectangle
 from matplotlib.path import Path as Curve
 
 from ros2_on_pip.graph.labels import SMALL, Label, edges_of, labels_of
-from ros2_on_pip.graph.layout import Box
-from ros2_on_pip.graph.line import WARNING, Line
+from ros2_on_pip.graph.layout import GraphBox
+from ros2_on_pip.graph.line import WARNING, TextLine
 from ros2_on_pip.graph.plan import HEAD_HALF, HEAD_LENGTH, Arrow, Point, plan_of
 from ros2_on_pip.graph.shape import GraphShape
 from ros2_on_pip.graph.words import NEXT, NOTHING
+from ros2_on_pip.language import said
 from ros2_on_pip.safe_text import harmless, wrapped
 from roslings.report.lettering import Lettering
 from roslings_rover.palette import colour_of
@@ -34,7 +35,7 @@ NODE_FILL, NODE_EDGE = colour_of("node"), colour_of("node-edge")
 TOPIC_FILL, TOPIC_EDGE = colour_of("topic"), colour_of("topic-edge")
 
 
-class Sheet:
+class GraphSheet:
     """All that is to be drawn, measured; `width` and `height` are the sheet's size."""
 
     def __init__(self, shape: GraphShape, title: str | None) -> None:
@@ -43,19 +44,19 @@ class Sheet:
         boxes = {key: label.box(self._lettering) for key, label in self._labels.items()}
         self._plan = plan_of(boxes, edges_of(shape))
         self._title = self._title_lines(title) if title else []
-        self._words = [] if boxes else [Line(NOTHING, bold=True), Line(NEXT)]
+        self._words = [] if boxes else [TextLine(str(NOTHING), bold=True), TextLine(str(NEXT))]
         widest = max(map(self._lettering.width, [*self._title, *self._words]), default=0.0)
         self.width = max(self._plan.width, widest, LEAST_WIDTH - 2 * MARGIN) + 2 * MARGIN
         self._top = MARGIN + sum(line.height for line in self._title) + (10 if title else 0)
         self._foot = self._top + max(self._plan.height, 60.0) + MARGIN
         self.height = self._foot + LEGEND_HEIGHT + MARGIN / 2
 
-    def _title_lines(self, title: str) -> list[Line]:
+    def _title_lines(self, title: str) -> list[TextLine]:
         def measure(text: str) -> int:
-            return math.ceil(self._lettering.width(Line(text, TITLE_SIZE, bold=True)))
+            return math.ceil(self._lettering.width(TextLine(text, TITLE_SIZE, bold=True)))
 
         parts = wrapped(" ".join(harmless(title).split()), int(TITLE_WIDTH), measure)
-        return [Line(part, TITLE_SIZE, bold=True) for part in parts]
+        return [TextLine(part, TITLE_SIZE, bold=True) for part in parts]
 
     def draw(self, figure: Figure) -> None:
         """Draw all of it; the figure has the sheet's size."""
@@ -91,13 +92,13 @@ class Sheet:
             _draw_box(axes, box, self._labels[key])
             self._letter(axes, box, self._labels[key])
 
-    def _letter(self, axes: Axes, box: Box, label: Label) -> None:
+    def _letter(self, axes: Axes, box: GraphBox, label: Label) -> None:
         top = box.y - label.height / 2
         for line in label.lines:
             top = self._lettering.write(axes, line, box.x, top)
 
 
-def _draw_box(axes: Axes, box: Box, label: Label) -> None:
+def _draw_box(axes: Axes, box: GraphBox, label: Label) -> None:
     if not label.round:
         corner = (box.x - box.width / 2, box.y - box.height / 2)
         patch = Rectangle(corner, box.width, box.height, fc=TOPIC_FILL, ec=TOPIC_EDGE, lw=1.4)
@@ -108,7 +109,7 @@ def _draw_box(axes: Axes, box: Box, label: Label) -> None:
     _draw_ellipse(axes, (box.x, box.y), box, WARNING if label.doubled else NODE_EDGE)
 
 
-def _draw_ellipse(axes: Axes, centre: Point, box: Box, edge: str) -> None:
+def _draw_ellipse(axes: Axes, centre: Point, box: GraphBox, edge: str) -> None:
     axes.add_patch(Ellipse(centre, box.width, box.height, fc=NODE_FILL, ec=edge, lw=1.4))
 
 
@@ -123,11 +124,16 @@ def _draw_arrow(axes: Axes, arrow: Arrow) -> None:
 def _draw_legend(axes: Axes, lettering: Lettering, y: float) -> None:
     top = y - SMALL * 0.65
     node, topic = Label((), round=True), Label(())
-    _draw_box(axes, Box(30, 14, x=MARGIN + 15, y=y), node)
-    lettering.write(axes, Line("node", SMALL), MARGIN + 36, top, "left")
-    _draw_box(axes, Box(28, 13, x=MARGIN + 96, y=y), topic)
-    lettering.write(axes, Line("topic", SMALL), MARGIN + 116, top, "left")
+    _draw_box(axes, GraphBox(30, 14, x=MARGIN + 15, y=y), node)
+    lettering.write(
+        axes, TextLine(said("graph.legend.node", "node"), SMALL), MARGIN + 36, top, "left"
+    )
+    _draw_box(axes, GraphBox(28, 13, x=MARGIN + 96, y=y), topic)
+    lettering.write(
+        axes, TextLine(said("graph.legend.topic", "topic"), SMALL), MARGIN + 116, top, "left"
+    )
     tip = (MARGIN + 192, y)
     head = (tip, (tip[0] - HEAD_LENGTH, y - HEAD_HALF), (tip[0] - HEAD_LENGTH, y + HEAD_HALF))
     _draw_arrow(axes, Arrow(((MARGIN + 162, y), (tip[0] - HEAD_LENGTH, y)), head))
-    lettering.write(axes, Line("messages go this way", SMALL), MARGIN + 198, top, "left")
+    words = said("graph.legend.arrow", "messages go this way")
+    lettering.write(axes, TextLine(words, SMALL), MARGIN + 198, top, "left")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ros2_on_pip.language import said
 from roslings.verdict import CheckOutcome, CheckResult, Verdict
 
 
@@ -16,5 +17,5 @@ def by_reason(checks: Sequence[CheckResult]) -> list[tuple[str, list[CheckResult
     """Checks that were not judged, put together where the reason is the same."""
     groups: dict[str, list[CheckResult]] = {}
     for check in checks:
-        groups.setdefault(check.why or "not said", []).append(check)
+        groups.setdefault(check.why or said("verdict.not_said", "not said"), []).append(check)
     return list(groups.items())

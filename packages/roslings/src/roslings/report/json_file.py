@@ -23,7 +23,7 @@ class BadVerdictFile(RoslingsError):
 def write_json(verdict: Verdict, path: Path) -> None:
     """Write `verdict` to `path` as UTF-8 JSON; the path `-` is standard output.
 
-    The file appears whole or not at all. Raises CannotWrite.
+    The file appears whole or not at all. Raises CannotWriteFile.
     """
     content = _json_of(verdict).encode("utf-8")
     if str(path) == "-":

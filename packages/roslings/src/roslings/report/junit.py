@@ -7,6 +7,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ros2_on_pip.safe_text import harmless
+from roslings.report.often_said import EXPECTED, MEASURED, TRY, WHY
 from roslings.report.refusal import Refusal
 from roslings.report.wall_words import held
 from roslings.report.whole_file import write_whole
@@ -17,7 +18,7 @@ _NO_XML = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def write_junit(told: Verdict | Refusal, path: Path) -> None:
-    """Write a verdict, or why there is none, to `path`. Raises CannotWrite."""
+    """Write a verdict, or why there is none, to `path`. Raises CannotWriteFile."""
     write_whole(path, refused(told) if isinstance(told, Refusal) else junit_of(told))
 
 
@@ -82,10 +83,10 @@ def _add(suite: Element, check: CheckResult, verdict: Verdict) -> None:
 def lines_of(check: CheckResult) -> list[str]:
     """A failure as lines of text."""
     rows = {
-        "expected": check.expected,
-        "measured": check.measured,
-        "why": check.why,
-        "try": check.hint,
+        EXPECTED: check.expected,
+        MEASURED: check.measured,
+        WHY: check.why,
+        TRY: check.hint,
     }
     return [check.title, *(f"{label}: {text}" for label, text in rows.items() if text)]
 

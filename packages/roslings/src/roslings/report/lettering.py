@@ -8,7 +8,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from ros2_on_pip.graph.line import Line
+from ros2_on_pip.graph.line import TextLine
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,13 +38,15 @@ class Lettering:
         canvas: Any = FigureCanvasAgg(Figure(dpi=MEASURING_DPI))  # matplotlib has no types for it
         self._renderer = canvas.get_renderer()
 
-    def width(self, line: Line) -> float:
+    def width(self, line: TextLine) -> float:
         """Points that the line takes from left to right."""
         text = _with_known_letters(line.text)
         width, _, _ = self._renderer.get_text_width_height_descent(text, _font(line), False)
         return float(width)
 
-    def write(self, axes: Axes, line: Line, x: float, top: float, align: str = "center") -> float:
+    def write(
+        self, axes: Axes, line: TextLine, x: float, top: float, align: str = "center"
+    ) -> float:
         """Write the line at `x`, its top at `top`; returns where the next line's top is."""
         axes.text(
             x,
@@ -59,7 +61,7 @@ class Lettering:
         return top + line.height
 
 
-def _font(line: Line) -> FontProperties:
+def _font(line: TextLine) -> FontProperties:
     from matplotlib.font_manager import FontProperties
 
     weight = "bold" if line.bold else "normal"

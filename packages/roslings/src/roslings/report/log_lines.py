@@ -23,8 +23,8 @@ def helpful(lines: Sequence[str], package: str, at_most: int) -> list[str]:
 
     Frames of libraries go where the student's own are there, or where there are too many lines.
 
-    Colours go, and the path to an installed file of `package` becomes `.../`: the student mends
-    the file in src, not the copy that colcon installed.
+    Colours go, and the path to an installed file of `package` becomes `.../`. The student mends the
+    file in src, not the copy that colcon installed.
     """
     plain = [without_colour(line) for line in lines]
     kept = _without_frames(

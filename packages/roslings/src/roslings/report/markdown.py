@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from ros2_on_pip.language import said
 from ros2_on_pip.safe_text import harmless
 from roslings.verdict import CheckResult
 
@@ -28,10 +29,10 @@ def markdown_of(check: CheckResult) -> str:
     if check.outcome != "fail":
         return escaped(check.why or "")
     rows = {
-        "Expected": check.expected,
-        "Measured": check.measured,
-        "Why": check.why,
-        "Try": check.hint,
+        said("export.expected", "Expected"): check.expected,
+        said("export.measured", "Measured"): check.measured,
+        said("export.why", "Why"): check.why,
+        said("export.try", "Try"): check.hint,
     }
-    parts = [f"**{label}:** {escaped(text)}" for label, text in rows.items() if text]
+    parts = [f"**{escaped(label)}:** {escaped(text)}" for label, text in rows.items() if text]
     return "\n\n".join([*parts, *([block("\n".join(check.log))] if check.log else [])])

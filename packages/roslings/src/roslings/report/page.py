@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 
 from rich import box
 from rich.cells import cell_len
@@ -12,9 +12,10 @@ from rich.padding import Padding
 from rich.panel import Panel
 from rich.text import Text
 
+from ros2_on_pip.language import Text as Words
 from ros2_on_pip.safe_text import can_show, cut_to, filled, harmless, in_encoding, wrapped
+from roslings.report.command_line import CommandLine
 from roslings.report.lesson_link import link_of
-from roslings.report.typed import Typed
 
 MARKS = {"pass": "✓", "fail": "✗", "skip": "○", "inconclusive": "?"}
 ASCII_MARKS = {"pass": "+", "fail": "x", "skip": "-", "inconclusive": "?"}
@@ -22,16 +23,20 @@ LABEL_WIDTH = 10
 LONGEST_TEXT_LINES = 12
 LONGEST_LOG_LINES = 3  # for each line of the log
 NARROWEST = 24
+Part = RenderableType | Callable[[], Iterable[RenderableType]]
+"""What is shown, or what makes it when all labels are known."""
 
 
 class Page:
     """Lines for one console: as wide as it is, in characters that its encoding has."""
 
-    def __init__(self, console: Console, typed: Typed) -> None:
-        """`typed` is how the verdict was asked for: what is to be typed next is said like that."""
+    def __init__(self, console: Console, command_line: CommandLine) -> None:
+        """`command_line`: how the verdict was asked for; what is typed next is said like that."""
         self._console = console
-        self.typed = typed
-        self._parts: list[RenderableType] = []
+        self.command_line = command_line
+        self._parts: list[Part] = []
+        self._column = LABEL_WIDTH
+        """Columns of the widest label so far, with the blank behind it: all texts begin there."""
         self.width = max(console.width, NARROWEST)
         self.marks = MARKS if self._shows("".join(MARKS.values()) + "…╭") else ASCII_MARKS
 
@@ -43,15 +48,16 @@ class Page:
     def _ellipsis(self) -> str:
         return "…" if self.marks is MARKS else "..."
 
-    def plain(self, text: str, *, keep_newlines: bool = False) -> str:
+    def plain(self, text: str | Words, *, keep_newlines: bool = False) -> str:
         """`text` without control characters and in this console's encoding."""
-        return in_encoding(harmless(text, keep_newlines=keep_newlines), self._console.encoding)
+        safe = harmless(str(text), keep_newlines=keep_newlines)
+        return in_encoding(safe, self._console.encoding)
 
     def blank(self) -> None:
         """An empty line."""
         self._parts.append(Text(""))
 
-    def line(self, text: str, style: str = "") -> None:
+    def line(self, text: str | Words, style: str = "") -> None:
         """One line; its end is cut off, visibly, where it is too long."""
         cut = cut_to(self.plain(text), self.width, cell_len, self._ellipsis)
         self._parts.append(Text(cut, style))
@@ -77,29 +83,47 @@ class Page:
         lines = wrapped(self.plain(text, keep_newlines=True), room, cell_len)
         self._beside(" " * indent, lines, "")
 
-    def labelled(self, label: str, text: str, *, indent: int = 0, style: str = "") -> None:
+    def labelled(
+        self, label: str | Words, text: str | Words, *, indent: int = 0, style: str = ""
+    ) -> None:
         """A short label, and a text of some lines beside it."""
-        head = " " * indent + label.ljust(LABEL_WIDTH)
-        room = self.width - len(head)
-        lines = self._bounded(text, room, LONGEST_TEXT_LINES, keep_newlines=True)
-        self._beside(head, lines, "bold", style)
 
-    def lesson(self, label: str, lesson: str, *, indent: int = 0) -> None:
+        def lines(room: int) -> list[str]:
+            return self._bounded(str(text), room, LONGEST_TEXT_LINES, keep_newlines=True)
+
+        self._behind_label(" " * indent, self.plain(label), lines, style)
+
+    def _behind_label(
+        self, indent: str, label: str, lines: Callable[[int], list[str]], style: str = ""
+    ) -> None:
+        """Filled when the page is whole: a label may be long in its language, and moves all."""
+        self._column = max(self._column, cell_len(label) + 1)
+
+        def part() -> Iterator[RenderableType]:
+            head = indent + label + " " * (self._column - cell_len(label))
+            yield from self._lines(head, lines(self.width - cell_len(head)), "bold", style)
+
+        self._parts.append(part)
+
+    def lesson(self, label: str | Words, lesson: str, *, indent: int = 0) -> None:
         """Where a lesson tells of it; a terminal that can opens it at a click."""
         link = link_of(lesson)
         self.labelled(label, lesson, indent=indent, style=f"link {link}" if link else "")
 
-    def command(self, label: str, text: str, command: str) -> None:
+    def command(self, label: str | Words, text: str | Words, command: str) -> None:
         """A label, a sentence, and what to type, which no line break comes into."""
-        head = label.ljust(LABEL_WIDTH)
         words = [*self.plain(text).split(), self.plain(command)]
-        self._beside(head, filled(words, self.width - len(head), cell_len), "bold")
+        self._behind_label("", self.plain(label), lambda room: filled(words, room, cell_len))
 
     def _beside(self, head: str, lines: list[str], style: str, text_style: str = "") -> None:
+        self._parts += self._lines(head, lines, style, text_style)
+
+    @staticmethod
+    def _lines(head: str, lines: list[str], style: str, text_style: str) -> Iterator[Text]:
         margin = " " * cell_len(head)
         for number, line in enumerate(lines):
             start = (margin, "") if number else (head, style)
-            self._parts.append(Text.assemble(start, (line, text_style)))
+            yield Text.assemble(start, (line, text_style))
 
     def boxed(self, title: str, lines: Iterable[str], *, indent: int = 0) -> None:
         """Lines that are somebody else's, e.g. a node's log, in a box of their own.
@@ -135,10 +159,12 @@ class Page:
 
     def height(self) -> int:
         """Lines that the page takes on its console."""
-        return len(self._console.render_lines(Group(*self._parts), pad=False))
+        return len(self._console.render_lines(self._whole(), pad=False))
+
+    def _whole(self) -> Group:
+        made = ([part] if not callable(part) else part() for part in self._parts)
+        return Group(*(each for parts in made for each in parts))
 
     def print(self) -> None:
         """Show it."""
-        self._console.print(
-            Group(*self._parts), highlight=False, markup=False, emoji=False, crop=False
-        )
+        self._console.print(self._whole(), highlight=False, markup=False, emoji=False, crop=False)

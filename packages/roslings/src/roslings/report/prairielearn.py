@@ -22,7 +22,7 @@ from roslings.verdict import CheckResult, Verdict
 
 
 def write_prairielearn(told: Verdict | Refusal, path: Path) -> None:
-    """Write a verdict, or why there is none, to `path`. Raises CannotWrite."""
+    """Write a verdict, or why there is none, to `path`. Raises CannotWriteFile."""
     table = refused(told) if isinstance(told, Refusal) else prairielearn_of(told)
     write_whole(path, f"{json.dumps(table, indent=2, ensure_ascii=True)}\n".encode())
 
@@ -30,7 +30,7 @@ def write_prairielearn(told: Verdict | Refusal, path: Path) -> None:
 def prairielearn_of(verdict: Verdict) -> dict[str, Any]:
     """The file as a table."""
     if verdict.score is None:
-        return {**_no_grade(INCONCLUSIVE), "tests": [_test(c) for c in shown_checks(verdict)]}
+        return {**_no_grade(str(INCONCLUSIVE)), "tests": [_test(c) for c in shown_checks(verdict)]}
     return {
         "gradable": True,
         "score": verdict.score / 100,

@@ -19,12 +19,12 @@ ASCII_TURNING = "|/-\\"
 TURNS_PER_SECOND = 8
 
 
-class Progress:
+class ProgressLine:
     """Tells on standard error what is being done; `quiet` tells nothing.
 
     On a terminal a thread draws the line until the block ends: enter a namespace before.
 
-        with Progress() as progress:
+        with ProgressLine() as progress:
             progress.step("Building chatter")
     """
 
@@ -35,7 +35,7 @@ class Progress:
         self._started = time.monotonic()
         self._live: Live | None = None
 
-    def __enter__(self) -> Progress:
+    def __enter__(self) -> ProgressLine:
         self._started = time.monotonic()
         if not self._quiet:
             self._open()

@@ -5,6 +5,7 @@ A file or a pipe gets the whole page, and so does `--all`.
 
 from __future__ import annotations
 
+from ros2_on_pip.language import said
 from roslings.report.check_lines import (
     INDENT,
     put_details,
@@ -14,6 +15,7 @@ from roslings.report.check_lines import (
     put_together,
 )
 from roslings.report.groups import by_reason, of_outcome
+from roslings.report.often_said import WHY
 from roslings.report.page import Page
 from roslings.verdict import CheckOutcome, CheckResult, Verdict
 
@@ -46,9 +48,16 @@ def put_change(page: Page, before: Verdict, now: Verdict) -> None:
     """Which checks have turned green since then, and which are green no more."""
     was, is_now = _passed(before), _passed(now)
     if new := [check.id for check in now.checks if check.id in is_now - was]:
-        page.labelled("New", f"Green since your last check: {', '.join(new)}.", style="green")
+        green = said("verdict.green", "Green since your last check: {checks}.", checks=_named(new))
+        page.labelled(said("verdict.new", "New"), green, style="green")
     if lost := [check.id for check in now.checks if check.id in was - is_now]:
-        page.labelled("Lost", f"Green before, and not now: {', '.join(lost)}.", style="red")
+        was_green = "Green before, and not now: {checks}."
+        text = said("verdict.not_green", was_green, checks=_named(lost))
+        page.labelled(said("verdict.lost", "Lost"), text, style="red")
+
+
+def _named(checks: list[str]) -> str:
+    return ", ".join(checks)
 
 
 def _passed(verdict: Verdict) -> set[str]:
@@ -68,4 +77,4 @@ def _put_waiting(page: Page, verdict: Verdict, outcome: CheckOutcome) -> None:
     """By name, and what they wait for."""
     for reason, checks in by_reason(of_outcome(verdict, outcome)):
         put_together(page, checks)
-        page.labelled("why", reason, indent=INDENT)
+        page.labelled(WHY, reason, indent=INDENT)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from ros2_on_pip.language import Text
 from roslings.verdict import CheckResult, Verdict
 
-TOGETHER = "Checks that you do not have, together."
+TOGETHER = Text("verdict.hidden", "Checks that you do not have, together.")
 
 
 def shown_checks(verdict: Verdict) -> tuple[CheckResult, ...]:
@@ -18,7 +19,7 @@ def _together(hidden: tuple[CheckResult, ...]) -> CheckResult:
     outcomes = {check.outcome for check in hidden}
     return CheckResult(
         id="hidden",
-        title=TOGETHER,
+        title=str(TOGETHER),
         outcome="inconclusive"
         if "inconclusive" in outcomes
         else "pass"

@@ -8,8 +8,10 @@ from collections.abc import Callable, Sequence
 from rich.console import Console
 
 from ros2_on_pip.errors import RoslingsError
+from ros2_on_pip.language import Text, counted, said
 from roslings.report.check_lines import (
     INDENT,
+    WORDS,
     points_of,
     put_details,
     put_heading,
@@ -17,14 +19,28 @@ from roslings.report.check_lines import (
     put_title,
     put_together,
 )
+from roslings.report.command_line import CommandLine
 from roslings.report.groups import by_reason, of_outcome
 from roslings.report.hint_page import first_failed, hint_command, put_hint
+from roslings.report.often_said import (
+    ASK_FOR_A_HINT,
+    CHECK_AGAIN,
+    GO_ON,
+    MAKE_THE_FILE,
+    NEXT,
+    REMARKS,
+    SEE_ALL_CHECKS,
+    STUCK,
+    WHY,
+    mend_first,
+)
 from roslings.report.page import Page
 from roslings.report.screen_page import put_screen
-from roslings.report.typed import Typed
 from roslings.verdict import CheckOutcome, CheckResult, Verdict
 
-UNSOAKED = "Your nodes ran for some seconds here. `pack` lets them run for longer."
+UNSOAKED = Text(
+    "verdict.unsoaked", "Your nodes ran for some seconds here. `pack` lets them run for longer."
+)
 NOT_JUDGED: tuple[CheckOutcome, ...] = ("skip", "inconclusive")
 
 
@@ -34,8 +50,17 @@ class NoSuchCheck(RoslingsError):
     def __init__(self, verdict: Verdict, name: str) -> None:
         names = [check.id for check in verdict.checks]
         near = difflib.get_close_matches(name, names, n=1)
-        guess = f" Did you mean {near[0]!r}?" if near else ""
-        super().__init__(f"There is no check {name!r}.{guess} The checks are: {', '.join(names)}.")
+        super().__init__(
+            said(
+                "verdict.no_such_check",
+                "There is no check {name!r}.{guess} The checks are: {checks}.",
+                name=name,
+                guess=said("verdict.did_you_mean", " Did you mean {name!r}?", name=near[0])
+                if near
+                else "",
+                checks=", ".join(names),
+            )
+        )
 
 
 def print_verdict(
@@ -46,27 +71,26 @@ def print_verdict(
     only: str | None = None,
     whole: bool = False,
     before: Verdict | None = None,
-    typed: Typed | None = None,
+    command_line: CommandLine | None = None,
 ) -> None:
     """Show `verdict` on `console`; with `hint_step` (1 to 3) a hint and not the whole verdict.
 
     A screen gets the first failed check whole and the others folded, unless `whole` is asked for,
-    and what has changed since `before`.
-    `only` names the one check that is shown, or that the hint is for; without it a hint is for
-    the first check that failed. `typed` is how the verdict was asked for. Raises NoSuchCheck, and
-    ValueError for another `hint_step`.
+    and what has changed since `before`. `only` names the one check that is shown, or that the hint
+    is for; without it a hint is for the first check that failed. `command_line` is how the verdict
+    was asked for. Raises NoSuchCheck, and ValueError for another `hint_step`.
     """
-    typed = typed or Typed(verdict.lab)
+    command_line = command_line or CommandLine(verdict.lab)
     check = None if only is None else _named(verdict, only)
     if hint_step is not None:
-        page = Page(console, typed)
+        page = Page(console, command_line)
         put_hint(page, verdict, check or first_failed(verdict), hint_step)
     elif check is not None:
-        page = _page_of_one(verdict, Page(console, typed), check)
+        page = _page_of_one(verdict, Page(console, command_line), check)
     elif console.is_terminal and not whole and (first := first_failed(verdict)):
-        page = _page_of_first(verdict, Page(console, typed), first, before)
+        page = _page_of_first(verdict, Page(console, command_line), first, before)
     else:
-        page = _page_of_all(verdict, console, typed)
+        page = _page_of_all(verdict, console, command_line)
     page.print()
 
 
@@ -83,8 +107,8 @@ def _page_of_one(verdict: Verdict, page: Page, check: CheckResult) -> Page:
     put_details(page, check, verdict.package)
     page.blank()
     if check.outcome == "fail" and check.hints:
-        page.command("Stuck", "Ask for a hint:", hint_command(page.typed, verdict, check, 1))
-    page.command("Next", "See all checks:", page.typed.check())
+        page.command(STUCK, ASK_FOR_A_HINT, hint_command(page.command_line, verdict, check, 1))
+    page.command(NEXT, SEE_ALL_CHECKS, page.command_line.check())
     return page
 
 
@@ -93,15 +117,19 @@ def _page_of_first(
 ) -> Page:
     put_screen(page, verdict, first, before)
     _put_end(page, verdict)
-    page.command("All", "See every check whole:", page.typed.check("--all"))
+    page.command(
+        said("verdict.all", "All"),
+        said("verdict.see_whole", "See every check whole:"),
+        page.command_line.check("--all"),
+    )
     return page
 
 
-def _page_of_all(verdict: Verdict, console: Console, typed: Typed) -> Page:
+def _page_of_all(verdict: Verdict, console: Console, command_line: CommandLine) -> Page:
     """A line for each check; on a screen too low for that, what is not wrong shares lines."""
-    page = _filled(Page(console, typed), verdict, _each_on_a_line)
+    page = _filled(Page(console, command_line), verdict, _each_on_a_line)
     if console.is_terminal and page.height() >= console.height:
-        page = _filled(Page(console, typed), verdict, _on_shared_lines)
+        page = _filled(Page(console, command_line), verdict, _on_shared_lines)
     return page
 
 
@@ -134,7 +162,7 @@ def _put_not_judged(page: Page, checks: Sequence[CheckResult], width: int, put: 
         page.blank()
     for reason, group in by_reason(checks):
         put(page, group, width)
-        page.labelled("why", reason, indent=INDENT)
+        page.labelled(WHY, reason, indent=INDENT)
 
 
 def _each_on_a_line(page: Page, checks: Sequence[CheckResult], points_width: int) -> None:
@@ -150,31 +178,53 @@ def _on_shared_lines(page: Page, checks: Sequence[CheckResult], points_width: in
 def _put_advice(page: Page, verdict: Verdict) -> None:
     if verdict.advice:
         page.blank()
-        page.line("Remarks that cost no points", "bold")
+        page.line(REMARKS, "bold")
     for remark in verdict.advice:
         page.headed("- ", remark, style="")
 
 
 def _put_score(page: Page, verdict: Verdict) -> None:
-    score = "none yet." if verdict.score is None else f"{verdict.score:g} of 100."
-    page.labelled("Score", f"{score} {_count(verdict)}", style="bold")
+    score = (
+        said("verdict.score.none", "none yet.")
+        if verdict.score is None
+        else said("verdict.score.given", "{score:g} of 100.", score=verdict.score)
+    )
+    page.labelled(said("verdict.score", "Score"), f"{score} {_count(verdict)}", style="bold")
 
 
 def _count(verdict: Verdict) -> str:
-    total = _counted(len(verdict.checks), "check", "checks")
+    count = len(verdict.checks)
     if verdict.outcome == "pass":
-        return f"{total}, and every one passes."
-    parts = [
-        _counted(len(of_outcome(verdict, "pass")), "passes", "pass"),
-        _counted(len(of_outcome(verdict, "fail")), "fails", "fail"),
-        _counted(len(of_outcome(verdict, "skip")), "is skipped", "are skipped"),
-        _counted(len(of_outcome(verdict, "inconclusive")), "is open", "are open"),
-    ]
-    return f"{total}: {', '.join(part for part in parts if not part.startswith('0'))}."
+        return counted(
+            "verdict.count.all_pass",
+            count,
+            one="{count} check, and every one passes.",
+            other="{count} checks, and every one passes.",
+        )
+    parts = ", ".join(each for outcome in WORDS if (each := _part(verdict, outcome)))
+    return counted(
+        "verdict.count",
+        count,
+        one="{count} check: {parts}.",
+        other="{count} checks: {parts}.",
+        parts=parts,
+    )
 
 
-def _counted(count: int, one: str, many: str) -> str:
-    return f"{count} {one if count == 1 else many}"
+def _part(verdict: Verdict, outcome: CheckOutcome) -> str:
+    """How many checks ended so; empty for none."""
+    count = len(of_outcome(verdict, outcome))
+    if not count:
+        return ""
+    if outcome == "pass":
+        return counted("verdict.passes", count, one="{count} passes", other="{count} pass")
+    if outcome == "fail":
+        return counted("verdict.fails", count, one="{count} fails", other="{count} fail")
+    if outcome == "skip":
+        return counted(
+            "verdict.skipped", count, one="{count} is skipped", other="{count} are skipped"
+        )
+    return counted("verdict.open", count, one="{count} is open", other="{count} are open")
 
 
 def _put_next(page: Page, verdict: Verdict) -> None:
@@ -188,25 +238,28 @@ def _put_next(page: Page, verdict: Verdict) -> None:
 
 
 def _put_praise(page: Page, verdict: Verdict) -> None:
-    page.labelled("", f"Well done: {verdict.package} does all that this lab asks for.")
-    if not page.typed.handed_in:
-        page.command("Next", "Go on with the course:", page.typed.program)
+    well_done = "Well done: {package} does all that this lab asks for."
+    page.labelled("", said("verdict.well_done", well_done, package=verdict.package))
+    if not page.command_line.handed_in:
+        page.command(NEXT, GO_ON, page.command_line.program)
         return
     if not verdict.soak_s:
         page.labelled("", UNSOAKED)
-    page.command("Next", "Make the file to hand in:", page.typed.pack)
-    page.command("", "Then go on with the course:", page.typed.program)
+    page.command(NEXT, MAKE_THE_FILE, page.command_line.pack)
+    then = said("verdict.then_go_on", "Then go on with the course:")
+    page.command("", then, page.command_line.program)
 
 
 def _put_mend(page: Page, verdict: Verdict, first: CheckResult) -> None:
-    order = " first" if len(verdict.failed()) > 1 else ""
-    page.command("Next", f'Mend "{first.id}"{order}, then check again:', page.typed.check())
+    page.command(NEXT, mend_first(verdict, first.id), page.command_line.check())
     if first.hints:
-        page.command("Stuck", "Ask for a hint:", hint_command(page.typed, verdict, first, 1))
+        page.command(STUCK, ASK_FOR_A_HINT, hint_command(page.command_line, verdict, first, 1))
 
 
 def _put_look_again(page: Page, verdict: Verdict) -> None:
     if verdict.outcome == "inconclusive":
-        page.labelled("", "Not everything could be told. This costs you nothing.")
-    page.command("Next", "Check again:", page.typed.check())
-    page.command("", "If it stays so, look at the machine:", f"{page.typed.program} doctor")
+        not_told = "Not everything could be told. This costs you nothing."
+        page.labelled("", said("verdict.not_told", not_told))
+    page.command(NEXT, CHECK_AGAIN, page.command_line.check())
+    stays = said("verdict.stays_so", "If it stays so, look at the machine:")
+    page.command("", stays, f"{page.command_line.program} doctor")

@@ -11,7 +11,7 @@ from ros2_on_pip.errors import INCONCLUSIVE, RoslingsError
 from ros2_on_pip.typed_paths import from_here, quoted_from_here
 
 
-class CannotWrite(RoslingsError):
+class CannotWriteFile(RoslingsError):
     """A file could not be written; the message says why and what to do."""
 
     exit_status = INCONCLUSIVE
@@ -33,7 +33,7 @@ def _next_step(path: Path, error: OSError) -> str:
 def write_whole(path: Path, content: bytes, *, overwrite: bool = True) -> None:
     """Put `content` at `path` in one step.
 
-    Raises CannotWrite, and FileExistsError where `overwrite` is false and the file is there.
+    Raises CannotWriteFile, and FileExistsError where `overwrite` is false and the file is there.
     """
     if not overwrite and path.exists():
         raise already_there(path)
@@ -42,15 +42,15 @@ def write_whole(path: Path, content: bytes, *, overwrite: bool = True) -> None:
     except FileExistsError:
         raise already_there(path) from None
     except OSError as error:
-        raise CannotWrite(path, error) from error
+        raise CannotWriteFile(path, error) from error
 
 
 def make_folder_of(path: Path) -> None:
-    """Make the folder that `path` lies in. Raises CannotWrite."""
+    """Make the folder that `path` lies in. Raises CannotWriteFile."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise CannotWrite(path, error) from error
+        raise CannotWriteFile(path, error) from error
 
 
 def already_there(path: Path) -> FileExistsError:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from roslings.arena import Installed, Launch, Place, Process, Sandbox, base_environment
+from roslings.arena import ArenaPlace, Installed, Launch, Process, Sandbox, base_environment
 from roslings.evidence import BuildSeen, NotOrdinary, ProcessSeen
 from roslings.workspace.foreign import read_foreign
 
@@ -58,7 +58,7 @@ class BuildRoom:
         """The environment after `source install/setup.bash`, as `env -0` writes it."""
         return self.lies / "environment"
 
-    def around(self, place: Place) -> Sandbox | None:
+    def around(self, place: ArenaPlace) -> Sandbox | None:
         """What stands around the build."""
         if place.sandbox is None:
             return None
@@ -66,7 +66,10 @@ class BuildRoom:
 
 
 def build(
-    room: BuildRoom, place: Place, within_s: float, meanwhile: Callable[[], object] = lambda: None
+    room: BuildRoom,
+    place: ArenaPlace,
+    within_s: float,
+    meanwhile: Callable[[], object] = lambda: None,
 ) -> tuple[BuildSeen, Installed | None]:
     """Build the package in `room` and source the result; None where nothing was installed.
 
@@ -114,8 +117,8 @@ def _last_words(room: BuildRoom, process: Process, within_s: float) -> list[str]
 def _script(room: BuildRoom) -> str:
     """colcon, then the setup script that every student sources.
 
-    Where colcon fails it hides a mistake in setup.py behind a page of its own calls: then
-    setup.py is run once more, alone, for the line that the student can mend.
+    Where colcon fails it hides a mistake in setup.py behind a page of its own calls. Then setup.py
+    is run once more, alone, for the line that the student can mend.
     """
     words = [colcon(), "--log-base", "log", "build", "--base-paths", "src", "--packages-select"]
     handlers = ["--event-handlers", "console_direct+", "desktop_notification-"]

@@ -11,19 +11,19 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from ros2_on_pip.typed_paths import shown
-from roslings.workspace.errors import AlreadyThere, reading, writing
-from roslings.workspace.sources import Limits, Source, sources
+from roslings.workspace.errors import TargetAlreadyThere, reading, writing
+from roslings.workspace.sources import PackageLimits, PackageSource, sources
 
 HALF_MADE = ".roslings-half-made-"
 """Hidden, so that colcon does not look into it."""
 STALE_S = 3600.0
 
 
-def copy_package(package: Path, into: Path, limits: Limits | None = None) -> Path:
+def copy_package(package: Path, into: Path, limits: PackageLimits | None = None) -> Path:
     """Copy the sources of `package` to the new folder `into`; returns `into`.
 
-    The package is only read. Folders above `into` are made. Whatever interrupts the copy, `into`
-    is there and whole, or not there. Raises AlreadyThere where something stands at `into`, and
+    The package is only read. Folders above `into` are made. Whatever interrupts the copy, `into` is
+    there and whole, or not there. Raises TargetAlreadyThere where something stands at `into`, and
     what `sources` and `writing` raise.
     """
     found = list(sources(package, limits))
@@ -73,7 +73,7 @@ def _umask() -> int:
     return mask
 
 
-def _copy(source: Source, to: Path) -> None:
+def _copy(source: PackageSource, to: Path) -> None:
     if source.link_to is not None:
         to.symlink_to(source.link_to)
     elif source.is_folder:
@@ -95,7 +95,7 @@ def _put(folder: Path, into: Path) -> None:
     except OSError:
         if not os.path.lexists(into):
             raise
-        raise AlreadyThere(
+        raise TargetAlreadyThere(
             f"There is something at {shown(into)}. It stays as it is.",
             "Move it away first, or choose another place.",
         ) from None

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ros2_on_pip.errors import INCONCLUSIVE, RoslingsError
 from ros2_on_pip.typed_paths import quoted, shown
-from roslings.workspace.file_kinds import Kind
+from roslings.workspace.file_kinds import FileKind
 
 MOST_NAMED = 5
 
@@ -95,7 +95,7 @@ NOTHING_IN_IT = (
 class Archive(WorkspaceError):
     """The path is a packed file."""
 
-    def __init__(self, path: Path, kind: Kind) -> None:
+    def __init__(self, path: Path, kind: FileKind) -> None:
         super().__init__(
             f"{shown(path)} is {kind.name}, not a folder.",
             "Give the folder of your package itself." if kind.way == "nothing" else UNPACK_IT,
@@ -125,7 +125,7 @@ class EmptyFolder(WorkspaceError):
 class OnlyPacked(WorkspaceError):
     """No package is in the folder, but packed files are."""
 
-    def __init__(self, folder: Path, found: Sequence[tuple[str, Kind]]) -> None:
+    def __init__(self, folder: Path, found: Sequence[tuple[str, FileKind]]) -> None:
         (name, kind), *others = found
         self.what = f"{kind.name}: {name}" if not others else f"{len(found)} packed files"
         what = f"{self.what}{':' if others else '.'}"
@@ -240,7 +240,7 @@ class NotThere(WorkspaceError):
         )
 
 
-class NoFile(WorkspaceError):
+class NotAFile(WorkspaceError):
     """A folder, or something else, has the name that a file must have."""
 
     def __init__(self, path: Path) -> None:
@@ -332,7 +332,7 @@ class PictureTooSlow(WorkspaceError):
 # --- what is in the way ------------------------------------------------------------------------
 
 
-class AlreadyThere(WorkspaceError):
+class TargetAlreadyThere(WorkspaceError):
     """Something stands where a starter or a zip would go; it stays as it is."""
 
 
@@ -347,7 +347,7 @@ class CannotRead(MachineTrouble):
         )
 
 
-class CannotWrite(MachineTrouble):
+class CannotWriteFolder(MachineTrouble):
     """A folder that this user may not write to."""
 
     def __init__(self, path: Path) -> None:
@@ -381,7 +381,7 @@ def writing(path: Path) -> Iterator[None]:
         if error.errno in _NO_ROOM:
             raise DiskFull(path) from error
         if error.errno in _NOT_ALLOWED:
-            raise CannotWrite(path) from error
+            raise CannotWriteFolder(path) from error
         if error.errno in {errno.ENOTDIR, errno.EEXIST}:
             raise NotAFolder(_file_on_the_way(path)) from error
         raise

@@ -17,7 +17,7 @@ ZIP_NAME_AT = 30
 
 
 @dataclass(frozen=True)
-class Kind:
+class FileKind:
     """One kind of file."""
 
     name: str
@@ -30,40 +30,40 @@ class Kind:
         return self.way != "other"
 
 
-EMPTY = Kind("an empty file", "nothing")
-EMPTY_ARCHIVE = Kind("a zip file with nothing in it", "nothing")
-CUT_OFF = Kind("a zip file that is cut off", "nothing")
-ZIP_FILE = Kind("a zip file", "opens")
-TAR_FILE = Kind("a tar file", "opens")
-OFFICE = Kind("a document of a text program, such as Word", "other")
-WEB_PAGE = Kind("a web page", "other")
-TEXT = Kind("a text file", "other")
-UNKNOWN = Kind("a file of an unknown kind", "other")
+EMPTY = FileKind("an empty file", "nothing")
+EMPTY_ARCHIVE = FileKind("a zip file with nothing in it", "nothing")
+CUT_OFF = FileKind("a zip file that is cut off", "nothing")
+ZIP_FILE = FileKind("a zip file", "opens")
+TAR_FILE = FileKind("a tar file", "opens")
+OFFICE = FileKind("a document of a text program, such as Word", "other")
+WEB_PAGE = FileKind("a web page", "other")
+TEXT = FileKind("a text file", "other")
+UNKNOWN = FileKind("a file of an unknown kind", "other")
 OFFICE_PARTS = (b"[Content_Types].xml", b"_rels/", b"docProps/", b"word/", b"mimetype")
 MAGIC = {
-    b"\x1f\x8b": Kind("a gz file", "opens"),
-    b"\xfd7zXZ\x00": Kind("an xz file", "opens"),
-    b"BZh": Kind("a bz2 file", "opens"),
-    b"Rar!\x1a\x07": Kind("a RAR file", "unpack"),
-    b"7z\xbc\xaf\x27\x1c": Kind("a 7z file", "unpack"),
-    b"\x28\xb5\x2f\xfd": Kind("a zst file", "unpack"),
-    b"MSCF": Kind("a cab file", "unpack"),
-    b"!<arch>\n": Kind("a Debian package", "unpack"),
-    b"PK\x07\x08": Kind("a part of a zip file", "unpack"),
-    b"%PDF": Kind("a PDF document", "other"),
+    b"\x1f\x8b": FileKind("a gz file", "opens"),
+    b"\xfd7zXZ\x00": FileKind("an xz file", "opens"),
+    b"BZh": FileKind("a bz2 file", "opens"),
+    b"Rar!\x1a\x07": FileKind("a RAR file", "unpack"),
+    b"7z\xbc\xaf\x27\x1c": FileKind("a 7z file", "unpack"),
+    b"\x28\xb5\x2f\xfd": FileKind("a zst file", "unpack"),
+    b"MSCF": FileKind("a cab file", "unpack"),
+    b"!<arch>\n": FileKind("a Debian package", "unpack"),
+    b"PK\x07\x08": FileKind("a part of a zip file", "unpack"),
+    b"%PDF": FileKind("a PDF document", "other"),
     b"\xd0\xcf\x11\xe0": OFFICE,
     b"{\\rtf": OFFICE,
-    b"\x89PNG": Kind("a picture", "other"),
-    b"\xff\xd8\xff": Kind("a picture", "other"),
-    b"GIF8": Kind("a picture", "other"),
-    b"\x7fELF": Kind("a program", "other"),
-    b"MZ": Kind("a program for Windows", "other"),
-    b"SQLite format 3\x00": Kind("a database", "other"),
+    b"\x89PNG": FileKind("a picture", "other"),
+    b"\xff\xd8\xff": FileKind("a picture", "other"),
+    b"GIF8": FileKind("a picture", "other"),
+    b"\x7fELF": FileKind("a program", "other"),
+    b"MZ": FileKind("a program for Windows", "other"),
+    b"SQLite format 3\x00": FileKind("a database", "other"),
 }
 """First bytes of a file to its kind."""
 
 
-def kind_of(path: Path) -> Kind:
+def kind_of(path: Path) -> FileKind:
     """What kind of file `path` is. Raises OSError."""
     with path.open("rb") as file:
         head = file.read(HEAD_BYTES)
@@ -76,7 +76,7 @@ def kind_of(path: Path) -> Kind:
     return next((kind for magic, kind in MAGIC.items() if head.startswith(magic)), _plain(head))
 
 
-def _kind_of_zip(path: Path, head: bytes) -> Kind:
+def _kind_of_zip(path: Path, head: bytes) -> FileKind:
     if head.startswith(EMPTY_ZIP) and zipfile.is_zipfile(path):
         return EMPTY_ARCHIVE
     if head[ZIP_NAME_AT:].startswith(OFFICE_PARTS):
@@ -86,7 +86,7 @@ def _kind_of_zip(path: Path, head: bytes) -> Kind:
     return next((kind for magic, kind in MAGIC.items() if head.startswith(magic)), CUT_OFF)
 
 
-def _plain(head: bytes) -> Kind:
+def _plain(head: bytes) -> FileKind:
     start = head.lstrip().lower()
     if start.startswith((b"<!doctype html", b"<html")):
         return WEB_PAGE

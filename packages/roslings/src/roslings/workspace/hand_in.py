@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ros2_on_pip.typed_paths import shown
-from roslings.workspace.errors import AlreadyThere, NoSuchPath, reading, writing
+from roslings.workspace.errors import NoSuchPath, TargetAlreadyThere, reading, writing
 from roslings.workspace.packages import package_name
 from roslings.workspace.sources import files
 
@@ -41,7 +41,7 @@ def default_zip(lab: str, out: Path | None) -> Path:
 def write_zip(package: Path, out: Path) -> Packed:
     """Write the package's sources to the zip `out`; equal sources make an equal zip.
 
-    Raises AlreadyThere, NoSuchPath where the zip's folder is missing, and what `sources` and
+    Raises TargetAlreadyThere, NoSuchPath where the zip's folder is missing, and what `sources` and
     `writing` raise.
     """
     if not out.parent.is_dir():
@@ -83,13 +83,16 @@ def _add(archive: zipfile.ZipFile, name: str, path: Path) -> None:
 
 
 def _may_replace(out: Path, name: str) -> bool:
-    """Whether an older zip of the same package is there. Raises AlreadyThere for anything else."""
+    """Whether an older zip of the same package is there.
+
+    Raises TargetAlreadyThere for anything else.
+    """
     if not os.path.lexists(out):
         return False
     with suppress(OSError, zipfile.BadZipFile), zipfile.ZipFile(out) as old:
         if f"{name}/package.xml" in old.namelist():
             return True
-    raise AlreadyThere(
+    raise TargetAlreadyThere(
         f"{shown(out)}\nis there already, and is no zip of {name!r}. It stays as it is.",
         "Give another name: --out FILE",
     )

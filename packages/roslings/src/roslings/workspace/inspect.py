@@ -29,8 +29,9 @@ ROSDEP_KEYS = {
     "rosbag2_py": "rosbag2_py",
     "rosidl_runtime_py": "rosidl_runtime_py",
 }
-"""Modules to their names in package.xml: those that no ROS package brings (rosdep's list), and
-those of ROS for which a package of ours stands in where the real one is not installed.
+"""Modules to their names in package.xml. They are those that no ROS package brings (rosdep's list),
+and those of ROS for which a package of ours can stand in. It does so where the real one is not
+installed.
 
 Not numpy: every message package of ROS brings it along.
 """

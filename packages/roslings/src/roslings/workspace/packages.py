@@ -26,7 +26,7 @@ from roslings.workspace.errors import (
     WorkspaceError,
     reading,
 )
-from roslings.workspace.file_kinds import EMPTY, UNKNOWN, Kind, kind_of
+from roslings.workspace.file_kinds import EMPTY, UNKNOWN, FileKind, kind_of
 from roslings.workspace.sources import BUILT, MADE
 
 MOST_FOLDERS = 5_000
@@ -249,7 +249,7 @@ def nothing_in(folder: Path, name: str) -> WorkspaceError:
     return OnlyPacked(folder, packed) if packed else NoPackage(folder, name)
 
 
-def _packed(entries: list[Path]) -> Iterator[tuple[str, Kind]]:
+def _packed(entries: list[Path]) -> Iterator[tuple[str, FileKind]]:
     """Packed files, by their bytes or by their names, with what they are."""
     for entry in entries[:MOST_LOOKED_AT]:
         if entry.is_symlink() or not entry.is_file():

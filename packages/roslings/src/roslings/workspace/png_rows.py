@@ -83,7 +83,7 @@ def has_one_colour(file: IO[bytes], header: Header) -> Iterator[bool]:
     NotPng, zlib.error.
     """
     pieces = _image(file, header)
-    colour = OneColour(header)
+    colour = OneColourRows(header)
     for row in _rows(_inflated(pieces), header):
         is_one = colour.takes(*row)
         yield is_one
@@ -141,14 +141,14 @@ def _inflated(pieces: Iterator[bytes]) -> Iterator[bytes]:
 
 
 @dataclass(frozen=True)
-class Shape:
+class RowShape:
     """Of a row: pixels, and whether nothing stands above it."""
 
     width: int
     is_first: bool
 
 
-def _rows(content: Iterator[bytes], header: Header) -> Iterator[tuple[int, bytes, Shape]]:
+def _rows(content: Iterator[bytes], header: Header) -> Iterator[tuple[int, bytes, RowShape]]:
     """The filter of each row, its filtered bytes, and its shape."""
     waiting = bytearray()
     for width, height in header.passes():
@@ -161,14 +161,14 @@ def _rows(content: Iterator[bytes], header: Header) -> Iterator[tuple[int, bytes
                 waiting += piece
             row = bytes(waiting[:length])
             del waiting[:length]
-            yield row[0], row[1:], Shape(width, is_first=not number)
+            yield row[0], row[1:], RowShape(width, is_first=not number)
 
 
 @dataclass
-class OneColour:
+class OneColourRows:
     """Whether all rows are of the colour of the first pixel.
 
-    Where pixels are smaller than a byte, the last bits of a row may be anything: its last byte is
+    Where pixels are smaller than a byte, the last bits of a row may be anything. Its last byte is
     unfiltered, and only its pixels are compared.
     """
 
@@ -176,9 +176,9 @@ class OneColour:
     pixel: bytes = b""
     last: int = 0
     """The last byte of the row above."""
-    known: dict[tuple[int, Shape], bytes] = field(default_factory=dict)
+    known: dict[tuple[int, RowShape], bytes] = field(default_factory=dict)
 
-    def takes(self, way: int, row: bytes, shape: Shape) -> bool:
+    def takes(self, way: int, row: bytes, shape: RowShape) -> bool:
         """One more row, filtered in this way. Raises NotPng."""
         if way > PAETH:
             raise NotPng("there is no such filter")
@@ -213,7 +213,7 @@ class OneColour:
             left, other = bytes(value - value // 2 for value in pixel), bytes(len(pixel))
         return left + other * (length // len(pixel) - 1)
 
-    def _ends_alike(self, way: int, row: bytes, shape: Shape, spare_bits: int) -> bool:
+    def _ends_alike(self, way: int, row: bytes, shape: RowShape, spare_bits: int) -> bool:
         value = self.pixel[0]
         beside = value if len(row) > 1 else 0
         above, corner = (0, 0) if shape.is_first else (self.last, beside)

@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING
 from roslings.course import Lab, all_labs
 from roslings.workspace.errors import WorkspaceError, reading, writing
 from roslings.workspace.progress_file import (
-    Damaged,
+    DamagedProgress,
     DrillProgress,
     LabProgress,
-    Progress,
     QuizProgress,
+    StudentProgress,
     as_json,
     progress_in,
 )
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from roslings.verdict import Verdict
 
 
-class Step(Enum):
+class NextStep(Enum):
     """What a student does next."""
 
     START = "start"
@@ -52,7 +52,7 @@ class LabStatus:
 class Today:
     """What is next; `at` is None when all is done."""
 
-    step: Step
+    step: NextStep
     at: LabStatus | None
 
 
@@ -84,15 +84,15 @@ def today(workspace: Path | None = None) -> Today:
     ready = (each for each in labs if _is_ready(each.lab, done))
     at = next((each for each in ready if each.lab.name not in done), None)
     if at is None:
-        return Today(Step.ALL_DONE, None)
-    return Today(Step.GO_ON if at.package else Step.START, at)
+        return Today(NextStep.ALL_DONE, None)
+    return Today(NextStep.GO_ON if at.package else NextStep.START, at)
 
 
 def record(verdict: Verdict, workspace: Path | None = None) -> LabProgress:
     """Keep a verdict's score; returns how far the lab is now.
 
     A verdict without a score (the machine's fault) changes nothing. Raises DiskFull and
-    CannotWrite: the caller tells it, and shows the verdict all the same.
+    CannotWriteFolder: the caller tells it, and shows the verdict all the same.
     """
     root = workspace or workspace_root()
     if verdict.score is None:
@@ -106,7 +106,7 @@ def record(verdict: Verdict, workspace: Path | None = None) -> LabProgress:
 
 
 def record_drill(name: str, passed: bool, workspace: Path | None = None) -> DrillProgress:
-    """Keep that a drill was tried, and whether it passed. Raises DiskFull and CannotWrite."""
+    """Keep that a drill was tried, and whether it passed. Raises DiskFull and CannotWriteFolder."""
     root = workspace or workspace_root()
     now = datetime.now(timezone.utc).replace(microsecond=0)
     with writing(_file(root)), _locked(root):
@@ -119,7 +119,7 @@ def record_drill(name: str, passed: bool, workspace: Path | None = None) -> Dril
 
 
 def record_quiz(day: str, right: int, of: int, workspace: Path | None = None) -> QuizProgress:
-    """Keep how many questions of a day's quiz were right. Raises DiskFull and CannotWrite.
+    """Keep how many questions of a day's quiz were right. Raises DiskFull and CannotWriteFolder.
 
     The best round is the one with the largest part of its questions right: a quiz may grow.
     """
@@ -135,18 +135,18 @@ def record_quiz(day: str, right: int, of: int, workspace: Path | None = None) ->
         return progress.quizzes[day]
 
 
-def read_progress(workspace: Path) -> Progress:
+def read_progress(workspace: Path) -> StudentProgress:
     """The file as it is; empty where there is none, and where a damaged one was set aside."""
     path = _file(workspace)
     with reading(path):
         if not path.is_file():
-            return Progress()
+            return StudentProgress()
         content = path.read_bytes()
     try:
         return progress_in(content)
-    except Damaged:
+    except DamagedProgress:
         _set_aside(path)
-        return Progress()
+        return StudentProgress()
 
 
 def _file(workspace: Path) -> Path:
@@ -188,7 +188,7 @@ def _locked(workspace: Path) -> Iterator[None]:
         yield
 
 
-def _write(path: Path, progress: Progress) -> None:
+def _write(path: Path, progress: StudentProgress) -> None:
     """Write the whole file, or leave the old one: a full disk must not cost the progress."""
     descriptor, name = tempfile.mkstemp(prefix=".progress-", dir=path.parent)
     new = Path(name)

@@ -16,7 +16,7 @@ FULL_SCORE = 100.0
 DAYS_KEPT = 400
 
 
-class Damaged(Exception):
+class DamagedProgress(Exception):
     """The content is no progress of this schema."""
 
 
@@ -64,7 +64,7 @@ class QuizProgress:
 
 
 @dataclass(frozen=True)
-class Progress:
+class StudentProgress:
     """The whole file."""
 
     labs: dict[str, LabProgress] = field(default_factory=dict)
@@ -76,7 +76,7 @@ class Progress:
     days: list[date] = field(default_factory=list)
     """On which something was checked, in order; the newest `DAYS_KEPT`."""
 
-    def with_day(self, day: date) -> Progress:
+    def with_day(self, day: date) -> StudentProgress:
         """With one more day on which something was checked."""
         return replace(self, days=sorted({*self.days, day})[-DAYS_KEPT:])
 
@@ -86,26 +86,26 @@ class Progress:
         return next(n for n in range(len(known) + 1) if last - timedelta(days=n) not in known)
 
 
-def progress_in(content: bytes) -> Progress:
+def progress_in(content: bytes) -> StudentProgress:
     """The progress that `content` holds; words of a newer roslings are passed over.
 
-    Raises Damaged.
+    Raises DamagedProgress.
     """
     try:
         tree = json.loads(content)
         if tree.get("schema", SCHEMA) != SCHEMA:
-            raise Damaged
+            raise DamagedProgress
         labs = {name: _lab_in(entry) for name, entry in tree.get("labs", {}).items()}
         drills = {name: _drill_in(entry) for name, entry in tree.get("drills", {}).items()}
         quizzes = {day: _quiz_in(entry) for day, entry in tree.get("quizzes", {}).items()}
-        return Progress(
+        return StudentProgress(
             labs, drills, quizzes, [date.fromisoformat(day) for day in tree.get("days", [])]
         )
     except (AttributeError, RecursionError, TypeError, ValueError) as error:
-        raise Damaged from error
+        raise DamagedProgress from error
 
 
-def as_json(progress: Progress) -> str:
+def as_json(progress: StudentProgress) -> str:
     """The content of the file."""
     tree = {"schema": SCHEMA, **asdict(progress)}
     return json.dumps(tree, indent=2, default=_written) + "\n"

@@ -14,12 +14,12 @@ from typing import IO
 
 from pydantic import BaseModel
 
-from roslings.arena import Installed, Place, base_environment
+from roslings.arena import ArenaPlace, Installed, base_environment
 from roslings.arena.kernel import cores
 from roslings.evidence import BuildSeen
 from roslings.workspace.build import BuildRoom, build
+from roslings.workspace.build_cache import content_of, install_like, shared_setup_of
 from roslings.workspace.foreign import NoRoom, copy_foreign
-from roslings.workspace.kin import content_of, family_of, install_like
 
 OF_ONE_RUN = ("HOME", "TMPDIR", "ROS_LOG_DIR")
 """Variables that name a run's own folders; the rest of a build's environment can be shared."""
@@ -28,7 +28,7 @@ WAITS_FOR_ITS_TURN_S = 20.0
 LOOK_AGAIN_S = 0.05
 
 
-class Built(BaseModel):
+class BuildResult(BaseModel):
     """What came of a build, kept beside it."""
 
     seen: BuildSeen
@@ -43,45 +43,50 @@ class Built(BaseModel):
 
 
 def shared_build(
-    builds: Path, source: Path, room: Path, place: Place, within_s: float, kin: bool = False
+    builds: Path,
+    source: Path,
+    room: Path,
+    place: ArenaPlace,
+    within_s: float,
+    from_cache: bool = False,
 ) -> tuple[BuildSeen, Installed | None]:
     """Build the package at `source`, or take the build of the same content from `builds`.
 
-    It is built in `room`, as if that were its place in `builds`: an installation must not be
-    moved, and what a stranger's build writes is bounded in `room` only. With `kin`, a package
-    that differs from a built one in its modules alone is installed without colcon.
+    It is built in `room`, as if that were its place in `builds`. An installation must not be moved,
+    and what a stranger's build writes is bounded in `room` only. With `from_cache`, a package that
+    differs from a built one in its modules alone is installed without colcon.
     """
     shared = builds / content_of(source, _built_with())
     with _held(shared):
-        if kin and not _kept(shared).is_file():
-            return _build_as_kin(shared, source, room, place, within_s)
+        if from_cache and not _kept(shared).is_file():
+            return _build_from_cache(shared, source, room, place, within_s)
         return _build_once(shared, source, room, place, within_s)
 
 
 def _build_once(
-    shared: Path, source: Path, room: Path, place: Place, within_s: float
+    shared: Path, source: Path, room: Path, place: ArenaPlace, within_s: float
 ) -> tuple[BuildSeen, Installed | None]:
     """Build it, if nobody has."""
     if _kept(shared).is_file():
-        built = Built.model_validate_json(_kept(shared).read_text("utf-8"))
+        built = BuildResult.model_validate_json(_kept(shared).read_text("utf-8"))
         built.seen.seconds = 0.0
         return built.seen, built.installed(place.home)
     with _turn(shared.parent):
         return _build_in(shared, source, room, place, within_s)
 
 
-def _build_as_kin(
-    shared: Path, source: Path, room: Path, place: Place, within_s: float
+def _build_from_cache(
+    shared: Path, source: Path, room: Path, place: ArenaPlace, within_s: float
 ) -> tuple[BuildSeen, Installed | None]:
     """Install it like the eldest of its family; the eldest itself is built."""
-    with family_of(shared.parent, source, _built_with()) as family:
-        if eldest := family.eldest:
+    with shared_setup_of(shared.parent, source, _built_with()) as shared_setup:
+        if eldest := shared_setup.eldest:
             install_like(eldest / source.name, shared / source.name, source)
             found = _kept(eldest).read_text("utf-8").replace(str(eldest), str(shared))
             _kept(shared).write_text(found, "utf-8")
         seen, installed = _build_once(shared, source, room, place, within_s)
         if _kept(shared).is_file() and not eldest:
-            family.remember(shared)
+            shared_setup.remember(shared)
     return seen, installed
 
 
@@ -95,7 +100,7 @@ def _built_with() -> str:
 
 
 def _build_in(
-    shared: Path, source: Path, room: Path, place: Place, within_s: float
+    shared: Path, source: Path, room: Path, place: ArenaPlace, within_s: float
 ) -> tuple[BuildSeen, Installed | None]:
     own = BuildRoom(shared / source.name, source.name, lies_at=room if place.sandbox else None)
     shutil.rmtree(own.folder, ignore_errors=True)
@@ -110,7 +115,7 @@ def _build_in(
         seen, installed = _build_alone(source, room, place, within_s)
         seen.filled_its_disk |= isinstance(error, NoRoom) and error.by_itself
         return seen, installed
-    built = Built(
+    built = BuildResult(
         seen=seen,
         programs=installed.programs,
         environment=installed.environment,
@@ -121,7 +126,7 @@ def _build_in(
 
 
 def _build_alone(
-    source: Path, room: Path, place: Place, within_s: float
+    source: Path, room: Path, place: ArenaPlace, within_s: float
 ) -> tuple[BuildSeen, Installed | None]:
     """Build in `room` for one run only: nobody else gets it (no rights, too deep, too much)."""
     alone = BuildRoom(room / "alone", source.name)

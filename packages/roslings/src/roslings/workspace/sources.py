@@ -19,7 +19,7 @@ MADE = frozenset({"__pycache__", "node_modules"})
 
 
 @dataclass(frozen=True)
-class Limits:
+class PackageLimits:
     """The most that a package of a lab may hold."""
 
     bytes: int = 200_000_000
@@ -27,7 +27,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Source:
+class PackageSource:
     """One source of a package: a folder, a file, or a link that stays inside."""
 
     path: Path
@@ -43,12 +43,12 @@ class Source:
         return self.link_to is None and self.path.is_dir()
 
 
-def sources(package: Path, limits: Limits | None = None) -> Iterator[Source]:
+def sources(package: Path, limits: PackageLimits | None = None) -> Iterator[PackageSource]:
     """The sources of a package, each folder before what it holds, by name.
 
     Raises LinkLeadsOutside, TooLarge and CannotRead.
     """
-    count = Count(package, limits or Limits())
+    count = Count(package, limits or PackageLimits())
     root = package.resolve()
     for source in _in_folder(root, root):
         count.add(source)
@@ -73,14 +73,14 @@ def is_made(folder: Path, top: bool) -> bool:
     )
 
 
-def _in_folder(folder: Path, root: Path) -> Iterator[Source]:
+def _in_folder(folder: Path, root: Path) -> Iterator[PackageSource]:
     with reading(folder), os.scandir(folder) as found:
         entries = sorted(found, key=lambda entry: entry.name)
     for entry in entries:
         yield from _from_entry(entry, root)
 
 
-def _from_entry(entry: os.DirEntry[str], root: Path) -> Iterator[Source]:
+def _from_entry(entry: os.DirEntry[str], root: Path) -> Iterator[PackageSource]:
     path = Path(entry.path)
     if entry.is_symlink():
         yield from _from_link(path, root)
@@ -88,17 +88,17 @@ def _from_entry(entry: os.DirEntry[str], root: Path) -> Iterator[Source]:
         with reading(path):
             made = is_made(path, top=path.parent == root)
         if not made:
-            yield Source(path, path.relative_to(root))
+            yield PackageSource(path, path.relative_to(root))
             yield from _in_folder(path, root)
     elif entry.is_file() and not _is_made_file(entry.name):
-        yield Source(path, path.relative_to(root), entry.stat().st_size)
+        yield PackageSource(path, path.relative_to(root), entry.stat().st_size)
 
 
 def _is_made_file(name: str) -> bool:
     return name.endswith((".pyc", ".pyo", "~")) or name.startswith(".#")
 
 
-def _from_link(link: Path, root: Path) -> Iterator[Source]:
+def _from_link(link: Path, root: Path) -> Iterator[PackageSource]:
     """A link that stays inside. One that leads nowhere is skipped: Emacs locks files with such.
 
     A link to a folder above itself is skipped too: whoever follows it never comes to an end.
@@ -109,19 +109,21 @@ def _from_link(link: Path, root: Path) -> Iterator[Source]:
     if not target.is_relative_to(root):
         raise LinkLeadsOutside(link, os.readlink(link))  # noqa: PTH115
     if not link.parent.is_relative_to(target):
-        yield Source(link, link.relative_to(root), link_to=os.path.relpath(target, link.parent))
+        yield PackageSource(
+            link, link.relative_to(root), link_to=os.path.relpath(target, link.parent)
+        )
 
 
 class Count:
     """How much of a package was seen so far, held against the limits."""
 
-    def __init__(self, package: Path, limits: Limits) -> None:
+    def __init__(self, package: Path, limits: PackageLimits) -> None:
         self._package, self._limits = package, limits
         self._files = 0
         self._bytes = 0
         self._by_part: dict[str, int] = {}
 
-    def add(self, source: Source) -> None:
+    def add(self, source: PackageSource) -> None:
         """Count one more. Raises TooLarge."""
         part = source.name.parts[0]
         self._by_part[part] = self._by_part.get(part, 0) + source.size + 1

@@ -15,17 +15,17 @@ from roslings.course import Lab
 from roslings.workspace.copying import copy_package
 from roslings.workspace.difference import changes_since
 from roslings.workspace.errors import (
-    AlreadyThere,
     EmptyFolder,
     NamedOtherwise,
     NoPackage,
     NoWorkspace,
+    TargetAlreadyThere,
     WorkspaceError,
     reading,
 )
 from roslings.workspace.hand_in import Packed, default_zip, write_zip
 from roslings.workspace.packages import find_package, package_name, packages_in
-from roslings.workspace.sources import Limits, files
+from roslings.workspace.sources import PackageLimits, files
 
 __all__ = [
     "Packed",
@@ -96,7 +96,7 @@ def _why_none(lab: Lab, path: Path | None, nothing: WorkspaceError) -> Workspace
 def start(lab: Lab, workspace: Path | None = None) -> Started:
     """Put the lab's starter into `src/` of the workspace; never over what is there.
 
-    Raises AlreadyThere, DiskFull, CannotWrite.
+    Raises TargetAlreadyThere, DiskFull, CannotWriteFolder.
     """
     root = workspace or workspace_root()
     package = root / "src" / lab.outline.package
@@ -129,24 +129,24 @@ def pack(lab: Lab, out: Path | None = None, path: Path | None = None) -> Packed:
     """Make the zip file to hand in: the package's sources and nothing else.
 
     `out` is a file, or a folder for `LAB.zip`; without it, `LAB.zip` lies in the current folder.
-    An older zip of the same package is replaced, and the answer says so. Raises AlreadyThere
+    An older zip of the same package is replaced, and the answer says so. Raises TargetAlreadyThere
     where something else has that name, and what `package_of` raises.
     """
     package = package_of(lab, path)
     return write_zip(package, default_zip(lab.name, out))
 
 
-def stage(package: Path, into: Path, limits: Limits | None = None) -> Path:
+def stage(package: Path, into: Path, limits: PackageLimits | None = None) -> Path:
     """Copy a package's sources to the new folder `into`, to be built there; returns `into`.
 
     Links that stay inside the package stay links. Raises LinkLeadsOutside, TooLarge, CannotRead,
-    AlreadyThere, DiskFull and CannotWrite.
+    TargetAlreadyThere, DiskFull and CannotWriteFolder.
     """
     return copy_package(package, into, limits)
 
 
-def _already_started(lab: Lab, standing: Path, root: Path) -> AlreadyThere:
-    return AlreadyThere(
+def _already_started(lab: Lab, standing: Path, root: Path) -> TargetAlreadyThere:
+    return TargetAlreadyThere(
         f"There is {_what_stands(lab, standing)}:\n  {shown(standing)}\nIt stays as it is.",
         f"Go on with it. What you changed so far: ./roslings diff {lab.name}\n"
         f"For a fresh starter, move it out of the workspace first:\n"

@@ -76,8 +76,8 @@ def changes(
     Saves that come while the caller works on one set are kept for the next. With `begin`, the
     first set is empty and comes as soon as the watch has begun: who works on it misses nothing.
     An empty set comes, too, as often as `wake()` is true.
-    A folder that vanishes (git checkout, a rename), or that this user may no longer read, is told
-    as a change of the folder itself, and waited for; that it is back is another such change.
+    A folder may vanish (git checkout, a rename), or this user may no longer read it. That is told
+    as a change of the folder itself, and waited for. That it is back is another such change.
     """
     folder = folder.resolve()
     try:

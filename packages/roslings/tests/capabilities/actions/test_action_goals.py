@@ -82,9 +82,9 @@ def test_a_refused_goal_has_no_end(probe: Probe, giver: GoalGiver) -> None:
 def test_both_sides_are_found_in_the_graph(probe: Probe, giver: GoalGiver) -> None:
     """With the type of the action, not of its hidden parts."""
     with GoalTaker(probe, "/count", FIBONACCI):
-        name = probe.eye.get_fully_qualified_name()
-        assert probe.until(lambda: bool(read_actions(probe.eye, [name])), WITHIN_S)
-        ends = read_actions(probe.eye, [name, "/nobody"])
+        name = probe.node.get_fully_qualified_name()
+        assert probe.until(lambda: bool(read_actions(probe.node, [name])), WITHIN_S)
+        ends = read_actions(probe.node, [name, "/nobody"])
     assert {(end.kind, end.action, end.type) for end in ends} == {("server", "/count", FIBONACCI)}
 
 

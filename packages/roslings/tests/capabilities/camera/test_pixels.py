@@ -11,14 +11,16 @@ import pytest
 from roslings.capabilities.camera.pixels import FilmLooker
 from roslings.capabilities.camera.record import PixelsSeen
 from roslings_rover.camera import Encoding, Frame, Light, SyntheticCamera
-from roslings_rover.rover import Disc, Eye
+from roslings_rover.rover import Disc, PinholeCameraModel
 
 BALL = Disc(60.0, 50.0, 15.0, hue=5)
 
 
 def drawn(number: int, encoding: Encoding = "bgr8", idle_bytes: int = 0) -> Frame:
     """A picture with a ball that moves a little."""
-    camera = SyntheticCamera(Eye(160, 120), Light(noise=6.0), encoding, idle_bytes, seed=number)
+    camera = SyntheticCamera(
+        PinholeCameraModel(160, 120), Light(noise=6.0), encoding, idle_bytes, seed=number
+    )
     return camera.frame([Disc(60.0 + 5 * number, 50.0, 15.0, hue=5)])
 
 

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from ros2_on_pip.launching.context import LaunchContext
+from ros2_on_pip.launching.context import Around, LaunchContext
 from ros2_on_pip.launching.node import Node
 from ros2_on_pip.launching.reading import description_in
-from ros2_on_pip.launching.screen import Screen
+from ros2_on_pip.launching.screen import LaunchOutput
 from skips import imported
 
 FULL, ALL = "/red/speed_limiter", "/**"
@@ -68,7 +68,7 @@ def words_of(how: str, file: Path, value: bool, folder: Path) -> list[str]:
     if how == "-p":
         said = ["--params-file", str(file), "-p", f"careful:={str(value).lower()}"]
         return ["--ros-args", "-r", "__ns:=/red", *said]
-    context = LaunchContext(Screen(), folder, description_in)
+    context = LaunchContext(around=Around(LaunchOutput(), folder, description_in))
     if how != "both names":
         context.launch_configurations["ros_namespace"] = "/red"
     names = {"name": "speed_limiter"} if how != "no name" else {}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
@@ -15,13 +16,13 @@ from roslings.capabilities.parameters.obeying import (
     take_what_its_card_allows,
 )
 from roslings.capabilities.parameters.record import ParametersSeen, ParameterTrial
-from roslings.capabilities.topics.relay import Shown
+from roslings.capabilities.topics.relay import RelayedValue
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import (
     Endpoint,
     ExperimentSeen,
     GraphSeen,
-    HeldUp,
+    HeldUpSeen,
     MessageSeen,
     ProcessSeen,
     Qos,
@@ -92,6 +93,9 @@ def view(*trials: ParameterTrial, ended: bool = False, **more: Any) -> Experimen
         (True, {"low": 5.0}),
         (False, {"low": 5.1}),
         (False, {"high": 1.5}),
+        (False, {"high": math.nan}),
+        (False, {"high": math.inf}),
+        (False, {"high": -math.inf}),
         (True, {"high": 1.5, "low": 1.0}),
         (False, {"low": 3.0, "high": 20.0}),
         (False, {"name": "other"}),
@@ -109,6 +113,8 @@ def test_the_card_says_what_is_taken(accepted: bool, asked: dict[str, Any]) -> N
     ("asked", "kind"),
     [
         ({"high": 9.01}, faults.WrongValueTaken),
+        ({"high": math.inf}, faults.WrongValueTaken),
+        ({"high": math.nan}, faults.NoNumberTaken),
         ({"high": "much"}, faults.WrongTypeTaken),
         ({"low": 6.0}, faults.RuleBroken),
         ({"name": "other"}, faults.ReadOnlyChanged),
@@ -121,6 +127,18 @@ def test_each_rule_has_its_own_words(
     with pytest.raises(faults.WrongValueTaken) as caught:
         view(trial(True, asked)).must(take_what_its_card_allows(NODE, "p"))
     assert type(caught.value) is kind
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_evidence_that_was_kept_is_judged_alike(value: float) -> None:
+    """JSON has no such numbers, so they are texts there; they are no values of another type."""
+    taken = trial(True, {"high": value})
+    kept = ParametersSeen.model_validate_json(ParametersSeen(trials=[taken]).model_dump_json())
+    with pytest.raises(faults.WrongValueTaken) as now:
+        view(taken).must(take_what_its_card_allows(NODE, "p"))
+    with pytest.raises(faults.WrongValueTaken) as later:
+        view(*kept.trials).must(take_what_its_card_allows(NODE, "p"))
+    assert (type(later.value), str(later.value)) == (type(now.value), str(now.value))
 
 
 def test_who_does_not_have_a_parameter_refuses_nothing() -> None:
@@ -197,7 +215,7 @@ def cut(values: Any, said: Any) -> float:
 
 def test_it_does_what_its_parameters_say() -> None:
     """Before the first request, after one that was taken, and after one that was refused."""
-    place = Shown(NODE, "data", SAID, "data")
+    place = RelayedValue(NODE, "data", SAID, "data")
     taken, refused = trial(True, {"high": 6.0}, 20), trial(False, {"high": 20.0}, 40, part="q")
     refused.before = refused.after = taken.after
     both = (taken, refused)
@@ -219,11 +237,11 @@ def test_messages_come_as_often_as_the_parameter_says(hz: float, right: bool) ->
     seen["topics"]["/out"].messages = [message(100 + n * period_ns) for n in range(12)]
     tried = trial(True, {"beat": 20})
     demand = beat_by_its_value(SAID, "beat", "p")
-    calm = view(tried, **seen, held_up={"p": HeldUp(cpu_wait_s=0.0, stall_s=0.0)})
+    calm = view(tried, **seen, held_up={"p": HeldUpSeen(cpu_wait_s=0.0, stall_s=0.0)})
     if right:
         calm.must(demand)
         return
     with pytest.raises(faults.ActsOtherwise, match="20 messages a second"):
         calm.must(demand)
     with pytest.raises(Inconclusive):
-        view(tried, **seen, held_up={"p": HeldUp(cpu_wait_s=2.0, stall_s=0.0)}).must(demand)
+        view(tried, **seen, held_up={"p": HeldUpSeen(cpu_wait_s=2.0, stall_s=0.0)}).must(demand)

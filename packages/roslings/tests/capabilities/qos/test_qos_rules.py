@@ -36,11 +36,13 @@ def view(part: QosSeen | None = None, **fields: Any) -> ExperimentView:
 
 
 def found(demand: Callable[[ExperimentView], None], seen: ExperimentView) -> type[Exception] | None:
-    """What a demand raises."""
+    """What a demand raises: which fault, or that it gives no answer."""
     try:
         demand(seen)
-    except (Fault, Inconclusive, NothingToJudge) as problem:
+    except Fault as problem:
         return type(problem)
+    except (Inconclusive, NothingToJudge) as reason:
+        return Inconclusive if isinstance(reason, Inconclusive) else NothingToJudge
     return None
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from std_srvs.srv import Trigger
 
-from roslings.capabilities.services.calling import Call
+from roslings.capabilities.services.calling import ServiceCall
 from roslings.capabilities.services.record import CallSeen
 
 
@@ -26,7 +26,7 @@ class Looking:
 def test_no_call_is_answered_before_its_answer_is_there() -> None:
     """Who gives up waiting at this moment sees a call without an answer, not an empty answer."""
     seen = CallSeen(service="/a", type="std_srvs/srv/Trigger", request={}, sent_ns=1)
-    call, future = Call(seen), Looking(seen)
+    call, future = ServiceCall(seen), Looking(seen)
     call.take(future)
     assert future.found == [None]
     assert (call.answered, seen.answered_ns is not None) == (True, True)

@@ -10,7 +10,7 @@ import pytest
 from roslings.capabilities.topics.faults.relay import MoreThanAsked, WrongAtFirst, WrongField
 from roslings.capabilities.topics.record import TOLD
 from roslings.capabilities.topics.relay import (
-    Shown,
+    RelayedValue,
     answer_each_once,
     hold_its_fields,
     show_at_first,
@@ -29,7 +29,7 @@ from roslings.evidence import (
 from roslings.judge import ExperimentView
 
 HEAT = TopicContract(topic="/heat", type="std_msgs/msg/Float64")
-PLACE = Shown(NodeContract(node="/oven", executable="oven"), "data", HEAT, "data")
+PLACE = RelayedValue(NodeContract(node="/oven", executable="oven"), "data", HEAT, "data")
 TOLD_NS = 1000
 
 

@@ -1,16 +1,18 @@
 """What counts as done in this lab: tides for who comes late, and warnings of gales."""
 
 from graders.almanac.act import blow
+from graders.almanac.contract import GaleWords
 from graders.almanac.demands import warn_of_gales
 
 from roslings.capabilities.qos.act import come_late
+from roslings.capabilities.qos.contract import QosWords
 from roslings.capabilities.qos.demands import (
     ask_for,
     keep_for_late_joiners,
     offer,
     tell_late_joiners_the_truth,
 )
-from roslings.course import lab
+from roslings.course import lab, written
 from roslings.experiment import Scene, experiment
 from roslings.judge import (
     ExperimentView,
@@ -31,9 +33,9 @@ from roslings.judge import (
 CARD = lab("almanac").card
 ALMANAC = CARD.node("almanac")
 TIDES, WIND = ALMANAC.publishes[0], ALMANAC.subscribes[0]
-KEPT, ASKED = ALMANAC.offers[0], ALMANAC.asks[0]
+KEPT, ASKED = ALMANAC.of(QosWords).offers[0], ALMANAC.of(QosWords).asks[0]
 LAST_CM, SAID = 180, 5
-EDGE_M_S = ALMANAC.warns_above_m_s
+EDGE_M_S = written(ALMANAC.of(GaleWords).warns_above_m_s, ALMANAC.node)
 WINDS_M_S = (EDGE_M_S + 3.5, EDGE_M_S - 0.5, EDGE_M_S + 0.5)
 
 

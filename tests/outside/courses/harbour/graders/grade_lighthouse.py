@@ -1,6 +1,7 @@
 """What counts as done in this lab: flashes that others can set."""
 
 from roslings.capabilities.parameters.act import list_parameters
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.parameters.demands import declare_its_parameters
 from roslings.capabilities.parameters.obeying import beat_by_its_value, take_what_its_card_allows
 from roslings.capabilities.parameters.setting import setting
@@ -23,7 +24,7 @@ from roslings.judge import (
 CARD = lab("lighthouse").card
 LIGHTHOUSE = CARD.node("lighthouse")
 FLASH = LIGHTHOUSE.publishes[0]
-FLASHES, COLOUR = LIGHTHOUSE.parameters
+FLASHES, COLOUR = LIGHTHOUSE.of(ParameterWords).parameters
 FLASHES_TO_COUNT = 12
 
 

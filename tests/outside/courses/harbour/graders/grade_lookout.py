@@ -9,6 +9,7 @@ from roslings.capabilities.camera.demands import (
     show_what_the_camera_saw,
     tell_of_trouble,
 )
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.topics.relay import hold_its_fields
 from roslings.course import lab
 from roslings.experiment import Scene, experiment
@@ -27,7 +28,7 @@ from roslings.judge import (
 
 CARD = lab("lookout").card
 LOOKOUT = CARD.node("lookout")
-SEA, (LENS, LIGHT) = LOOKOUT.publishes[0], LOOKOUT.parameters
+SEA, (LENS, LIGHT) = LOOKOUT.publishes[0], LOOKOUT.of(ParameterWords).parameters
 AS_IT_IS, LEVELS = LOOKOUT.constant("as_it_is"), LOOKOUT.constant("levels")
 LIT = (LIGHT.tried, *LIGHT.ends)
 PICTURES, LOOKS_AGAIN_WITHIN_S = 6, 2.0

@@ -6,7 +6,7 @@ import re
 import shlex
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from ros2_on_pip.launching import actions, elsewhere
 from ros2_on_pip.launching.conditions import Condition, IfCondition, UnlessCondition
@@ -25,14 +25,16 @@ from ros2_on_pip.launching.substitution import (
     performed,
 )
 from ros2_on_pip.launching.text import UnknownSubstitution, parts_in
-from ros2_on_pip.problem import Problem, did_you_mean
+from ros2_on_pip.launching.typed import yaml_truth
+from ros2_on_pip.launching.wrong_kind import CALLED, Refused
+from ros2_on_pip.problem import CommandProblem, did_you_mean
 
 CONDITIONS = {"if": IfCondition, "unless": UnlessCondition}
 PROCESS = (
     "name",
     "output",
     "cwd",
-    "launch_prefix",
+    "launch-prefix",
     "emulate_tty",
     "shell",
     "respawn",
@@ -42,7 +44,17 @@ PROCESS = (
     "sigkill_timeout",
     "on_exit",
 )
-VALUE = ("name", "value", "type", "value_sep")
+SETTINGS = {
+    "output": str,
+    "cwd": str,
+    "respawn": str,
+    "sigterm_timeout": float,
+    "sigkill_timeout": float,
+}
+NUMBERS: dict[str, type[Any]] = {"respawn_delay": float, "respawn_max_retries": int}
+"""Attributes of a process to what YAML may read; a text may stand for each."""
+
+VALUE = ("name", "value", "type", "value-sep")
 NODE = (*PROCESS, "pkg", "exec", "exec_name", "namespace", "args", "ros_args")
 TYPES: dict[str, Any] = {
     "bool": bool,
@@ -60,7 +72,8 @@ TYPES: dict[str, Any] = {
 def description_of(file: Path, kind: str) -> LaunchDescription:
     """What an XML or YAML launch file asks for. Raises BadLaunchFile, NotReadHere."""
     root = read(file, kind)
-    description = LaunchDescription(built_in(root))
+    reason = root.attributes.get("deprecated")
+    description = LaunchDescription(built_in(root), deprecated_reason=reason)
     description.place = root.place
     return description
 
@@ -84,13 +97,13 @@ def built(element: Element) -> Entity:
     return _placed(element, TAGS[element.tag])
 
 
-def _placed(element: Element, make: Callable[[Reader], Entity]) -> Entity:
+def _placed(element: Element, make: Callable[[ElementReader], Entity]) -> Entity:
     try:
         with standing_at(element.place):
-            return make(Reader(element))
+            return make(ElementReader(element))
     except BadLaunchFile:
         raise
-    except (Problem, TypeError, ValueError) as fault:
+    except (CommandProblem, TypeError, ValueError, Refused) as fault:
         raise BadLaunchFile(element.place, str(fault)) from None
 
 
@@ -109,28 +122,42 @@ class Joined(Substitution):
         return described(self.parts)
 
 
-class Reader:
+class ElementReader:
     """The attributes of one element, and the parts inside it."""
 
     def __init__(self, element: Element, conditions: Iterable[str] = CONDITIONS) -> None:
         """`conditions` are the attributes that every action may have, and no part of one."""
         self.element, self._conditions = element, conditions
 
-    def text(self, name: str) -> Parts:
+    def text(self, name: str, kind: type[Any] = str) -> Parts:
         """The attribute `name`. Raises BadLaunchFile where it is missing."""
-        found = self.optional(name)
+        found = self.optional(name, kind)
         if found is None:
             tag = self.element.tag
             raise BadLaunchFile(self.element.place, f"'{tag}' needs the attribute '{name}'")
         return found
 
-    def optional(self, name: str) -> Parts | None:
+    def optional(self, name: str, kind: type[Any] = str) -> Parts | None:
         """The attribute `name`; None where it is missing. Raises BadLaunchFile, NotReadHere."""
-        value = self.element.attributes.get(name)
+        value = self.plain(name, kind)
         if value is None:
             return None
-        text = str(value).lower() if isinstance(value, bool) else str(value)
-        return self.filled(text)
+        return self.filled(str(value).lower() if isinstance(value, bool) else str(value))
+
+    def plain(self, name: str, kind: type[Any] = str) -> Any:
+        """The attribute as it was read; XML has texts alone, and Jazzy makes nothing else of what
+        YAML has read. Raises BadLaunchFile where it is neither a text nor of this kind.
+        """
+        value = self.element.attributes.get(name)
+        if value is None or isinstance(value, str | kind):
+            return value
+        read = str(value).lower() if isinstance(value, bool) else value
+        step = f" Write it with a point: {read}.0" if kind is float else ""
+        step = f' Put it between quotes: "{read}"' if kind is str else step
+        self._refuse(
+            f"'{name}' of '{self.element.tag}' must be {CALLED[kind]}, and YAML reads {read} as"
+            f" {type(value).__name__}.{step}"
+        )
 
     def filled(self, text: str) -> Parts:
         """A text with its `$(...)`. Raises BadLaunchFile, NotReadHere."""
@@ -138,12 +165,12 @@ class Reader:
             return parts_in(text)
         except UnknownSubstitution as unknown:
             raise NotReadHere(self.element.place, str(unknown), unknown.instead) from None
-        except Problem as problem:
+        except CommandProblem as problem:
             raise BadLaunchFile(self.element.place, str(problem)) from None
 
     def words(self, name: str) -> list[Parts]:
         """The attribute `name` as the words of a command line; a `$(...)` is within one word."""
-        parts = self.filled(str(self.element.attributes.get(name, "")))
+        parts = self.filled(self.plain(name) or "")
         known = {chr(_HIDDEN + at): part for at, part in enumerate(parts)}
         texts = (p.text if isinstance(p, TextSubstitution) else sign for sign, p in known.items())
         return [_shown(word, known) for word in shlex.split("".join(texts))]
@@ -164,14 +191,14 @@ class Reader:
         for child in self.element.children:
             if child.tag not in parts:
                 near = did_you_mean(child.tag, parts)
-                Reader(child)._refuse(f"there is no '{child.tag}' inside '{tag}'.{near}")
+                ElementReader(child)._refuse(f"there is no '{child.tag}' inside '{tag}'.{near}")
 
-    def _refuse(self, reason: str) -> None:
+    def _refuse(self, reason: str) -> NoReturn:
         raise BadLaunchFile(self.element.place, reason)
 
-    def parts(self, tag: str, *known: str, inside: Iterable[str] = ()) -> list[Reader]:
+    def parts(self, tag: str, *known: str, inside: Iterable[str] = ()) -> list[ElementReader]:
         """The elements of one kind inside this one; each has only the attributes `known`."""
-        readers = [Reader(child, conditions=()) for child in self.element.inside(tag)]
+        readers = [ElementReader(child, conditions=()) for child in self.element.inside(tag)]
         for reader in readers:
             reader.only(*known, parts=inside)
         return readers
@@ -193,64 +220,68 @@ def _shown(word: str, known: Mapping[str, Substitution]) -> Parts:
     return found or [TextSubstitution(text="")]
 
 
-def _arg(reader: Reader) -> Entity:
-    reader.only("name", "default", "description", "value", parts=["choice"])
-    given = reader.element.attributes
-    default = reader.optional("default")
+def _arg(reader: ElementReader) -> Entity:
+    if "value" in reader.element.attributes:
+        raise BadLaunchFile(
+            reader.element.place,
+            "'arg' has no attribute 'value' here: its value comes from the command. Write default,"
+            " which counts where nobody gives one, or let instead of arg",
+        )
+    reader.only("name", "default", "description", parts=["choice"])
     listed = reader.parts("choice", "value")
-    choices = [str(choice.element.attributes.get("value")) for choice in listed]
+    choices = [str(choice.plain("value")) for choice in listed]
     return actions.DeclareLaunchArgument(
-        str(given.get("name") or reader.text("name")),
-        default_value=default,
-        description=str(given.get("description", "")),
+        str(reader.plain("name") or reader.text("name")),
+        default_value=reader.optional("default"),
+        description=str(reader.plain("description") or ""),
         choices=choices or None,
         condition=reader.condition(),
     )
 
 
-def _let(reader: Reader) -> Entity:
+def _let(reader: ElementReader) -> Entity:
     reader.only("name", "value")
     return actions.SetLaunchConfiguration(
         reader.text("name"), reader.text("value"), condition=reader.condition()
     )
 
 
-def _unset(reader: Reader) -> Entity:
+def _unset(reader: ElementReader) -> Entity:
     reader.only("name")
     name = reader.text("name")
     return actions.UnsetLaunchConfiguration(name, condition=reader.condition())
 
 
-def _set_env(reader: Reader) -> Entity:
+def _set_env(reader: ElementReader) -> Entity:
     reader.only("name", "value")
     return actions.SetEnvironmentVariable(
         reader.text("name"), reader.text("value"), condition=reader.condition()
     )
 
 
-def _append_env(reader: Reader) -> Entity:
+def _append_env(reader: ElementReader) -> Entity:
     reader.only("name", "value", "prepend", "separator")
     return actions.AppendEnvironmentVariable(
         reader.text("name"),
         reader.text("value"),
-        prepend=reader.optional("prepend") or False,
+        prepend=reader.optional("prepend", bool) or False,
         separator=reader.optional("separator") or ":",
         condition=reader.condition(),
     )
 
 
-def _unset_env(reader: Reader) -> Entity:
+def _unset_env(reader: ElementReader) -> Entity:
     reader.only("name")
     name = reader.text("name")
     return actions.UnsetEnvironmentVariable(name, condition=reader.condition())
 
 
-def _log(reader: Reader) -> Entity:
-    reader.only("message", "level")
+def _log(reader: ElementReader) -> Entity:
+    reader.only("message")
     return actions.LogInfo(msg=reader.text("message"), condition=reader.condition())
 
 
-def _group(reader: Reader) -> Entity:
+def _group(reader: ElementReader) -> Entity:
     element = reader.element
     inner = [child for child in element.children if child.tag != "keep"]
     reader.only("scoped", "forwarding", parts=[child.tag for child in element.children])
@@ -264,14 +295,14 @@ def _group(reader: Reader) -> Entity:
     )
 
 
-def _switch(reader: Reader, name: str) -> bool:
+def _switch(reader: ElementReader, name: str) -> bool:
     value = str(reader.element.attributes.get(name, "true")).lower()
     if value not in ("true", "false"):
         raise BadLaunchFile(reader.element.place, f"'{name}' is true or false, and not '{value}'")
     return value == "true"
 
 
-def _include(reader: Reader) -> Entity:
+def _include(reader: ElementReader) -> Entity:
     reader.only("file", parts=["arg", "let"])
     given = [*reader.pairs("arg", "name", "value"), *reader.pairs("let", "name", "value")]
     return IncludeLaunchDescription(
@@ -279,47 +310,50 @@ def _include(reader: Reader) -> Entity:
     )
 
 
-def _timer(reader: Reader) -> Entity:
-    reader.only("period", parts=[child.tag for child in reader.element.children])
+def _timer(reader: ElementReader) -> Entity:
+    inner = [child.tag for child in reader.element.children]
+    reader.only("period", "cancel_on_shutdown", parts=inner)
     return actions.TimerAction(
-        period=reader.text("period"),
+        period=reader.text("period", float),
+        cancel_on_shutdown=reader.optional("cancel_on_shutdown", bool) or True,
         actions=built_in(reader.element),
         condition=reader.condition(),
     )
 
 
-def _shutdown(reader: Reader) -> Entity:
+def _shutdown(reader: ElementReader) -> Entity:
     reader.only("reason")
     reason = reader.optional("reason") or "reason not given"
     return actions.Shutdown(reason=reason, condition=reader.condition())
 
 
-def _push_namespace(reader: Reader) -> Entity:
+def _push_namespace(reader: ElementReader) -> Entity:
     reader.only("namespace")
     return actions.PushRosNamespace(reader.text("namespace"), condition=reader.condition())
 
 
-def _set_parameter(reader: Reader) -> Entity:
-    reader.only(*VALUE)
-    return actions.SetParameter(reader.text("name"), _value(reader), condition=reader.condition())
+def _set_parameter(reader: ElementReader) -> Entity:
+    reader.only("name", "value")
+    value = [Joined(reader.text("value"))]
+    return actions.SetParameter(reader.text("name"), value, condition=reader.condition())
 
 
-def _set_parameters_from_file(reader: Reader) -> Entity:
+def _set_parameters_from_file(reader: ElementReader) -> Entity:
     reader.only("filename")
     return actions.SetParametersFromFile(reader.text("filename"), condition=reader.condition())
 
 
-def _set_remap(reader: Reader) -> Entity:
+def _set_remap(reader: ElementReader) -> Entity:
     reader.only("from", "to")
     return actions.SetRemap(reader.text("from"), reader.text("to"), condition=reader.condition())
 
 
-def _set_use_sim_time(reader: Reader) -> Entity:
+def _set_use_sim_time(reader: ElementReader) -> Entity:
     reader.only("value")
-    return actions.SetUseSimTime(_value(reader), condition=reader.condition())
+    return actions.SetUseSimTime(reader.text("value", bool), condition=reader.condition())
 
 
-def _node(reader: Reader) -> Entity:
+def _node(reader: ElementReader) -> Entity:
     reader.only(*NODE, parts=["env", "param", "remap"])
     return Node(
         package=reader.optional("pkg"),
@@ -335,7 +369,7 @@ def _node(reader: Reader) -> Entity:
     )
 
 
-def _executable(reader: Reader) -> Entity:
+def _executable(reader: ElementReader) -> Entity:
     reader.only(*PROCESS, "cmd", "args", parts=["env"])
     words = [*reader.words("cmd"), *reader.words("args")]
     if str(reader.element.attributes.get("shell", "false")).lower() == "true":
@@ -343,18 +377,16 @@ def _executable(reader: Reader) -> Entity:
     return ExecuteProcess(cmd=words, name=reader.optional("name"), **_process(reader))
 
 
-def _process(reader: Reader) -> dict[str, Any]:
+def _process(reader: ElementReader) -> dict[str, Any]:
     given = reader.element.attributes
     settings: dict[str, Any] = {
-        name: reader.optional(name)
-        for name in ("output", "cwd", "respawn", "sigterm_timeout", "sigkill_timeout")
-        if name in given
+        name: reader.optional(name, kind) for name, kind in SETTINGS.items() if name in given
     }
-    for name, kind in (("respawn_delay", float), ("respawn_max_retries", int)):
+    for name, kind in NUMBERS.items():
         if name in given:
-            settings[name] = kind(given[name])
-    if "launch_prefix" in given:
-        settings["prefix"] = reader.text("launch_prefix")
+            settings[name] = kind(reader.plain(name, kind))
+    if "launch-prefix" in given:
+        settings["prefix"] = reader.text("launch-prefix")
     if "on_exit" in given:
         settings["on_exit"] = _at_exit(reader)
     settings["shell"] = str(given.get("shell", "false")).lower() == "true"
@@ -362,31 +394,32 @@ def _process(reader: Reader) -> dict[str, Any]:
     return {**settings, "condition": reader.condition()}
 
 
-def _environment(reader: Reader) -> dict[tuple[Substitution, ...], Parts]:
+def _environment(reader: ElementReader) -> dict[tuple[Substitution, ...], Parts]:
     return {tuple(name): value for name, value in reader.pairs("env", "name", "value")}
 
 
-def _at_exit(reader: Reader) -> Entity:
+def _at_exit(reader: ElementReader) -> Entity:
     word = str(reader.element.attributes["on_exit"])
     if word != "shutdown":
         raise BadLaunchFile(reader.element.place, f"'on_exit' is shutdown, and not '{word}'")
-    return actions.Shutdown(reason="a process that the launch needs has ended")
+    return actions.Shutdown()
 
 
-def _parameters(node: Reader) -> list[Any]:
+def _parameters(node: ElementReader) -> list[Any]:
     """Files and values in order; values side by side are one file, as in Jazzy."""
     found: list[Any] = []
     for reader in node.parts("param", *VALUE, "from", "allow_substs", inside=["param"]):
         if "from" in reader.element.attributes:
             reader.only("from", "allow_substs")
-            switch = reader.optional("allow_substs") or "false"
-            found.append(ParameterFile(reader.text("from"), allow_substs=switch))
+            switch = str(reader.element.attributes.get("allow_substs", False)).lower()
+            allowed = yaml_truth(switch, "allow_substs")
+            found.append(ParameterFile(reader.text("from"), allow_substs=allowed))
         else:
             found.append(_nested([reader]))
     return found
 
 
-def _nested(params: list[Reader]) -> dict[str, Any]:
+def _nested(params: list[ElementReader]) -> dict[str, Any]:
     """One parameter inside another gets a dot between the names."""
     tree: dict[str, Any] = {}
     for reader in params:
@@ -397,7 +430,7 @@ def _nested(params: list[Reader]) -> dict[str, Any]:
     return tree
 
 
-def _value(reader: Reader) -> Any:
+def _value(reader: ElementReader) -> Any:
     """XML knows only texts: what looks like a number is one, unless `type` says otherwise."""
     value = reader.element.attributes.get("value")
     kind = reader.element.attributes.get("type")
@@ -407,14 +440,14 @@ def _value(reader: Reader) -> Any:
     if value is not None and not isinstance(value, str):
         return value
     value_type = TYPES.get(str(kind))
-    if separator := reader.element.attributes.get("value_sep"):
-        pieces = [Joined(reader.filled(p.strip())) for p in str(value).split(str(separator))]
+    if separator := reader.element.attributes.get("value-sep"):
+        pieces = [Joined(reader.filled(p)) for p in str(value).split(str(separator))]
         of = listed_by(value_type)
         return [ParameterValue(piece, value_type=of) for piece in pieces]
     return ParameterValue(Joined(reader.text("value")), value_type=value_type)
 
 
-TAGS: dict[str, Callable[[Reader], Entity]] = {
+TAGS: dict[str, Callable[[ElementReader], Entity]] = {
     "append_env": _append_env,
     "arg": _arg,
     "executable": _executable,
@@ -423,6 +456,7 @@ TAGS: dict[str, Callable[[Reader], Entity]] = {
     "let": _let,
     "log": _log,
     "node": _node,
+    "push-ros-namespace": _push_namespace,
     "push_ros_namespace": _push_namespace,
     "set_env": _set_env,
     "set_parameter": _set_parameter,

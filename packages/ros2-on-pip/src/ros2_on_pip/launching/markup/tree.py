@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 from xml.parsers import expat
 
-from ros2_on_pip.launching.places import BadLaunchFile, Place
+from ros2_on_pip.launching.places import BadLaunchFile, LaunchFileLine
 
 ROOT = "launch"
 
@@ -18,7 +18,7 @@ class Element:
     """A tag with its attributes and the elements inside it."""
 
     tag: str
-    place: Place
+    place: LaunchFileLine
     attributes: dict[str, Any] = field(default_factory=dict)
     children: list[Element] = field(default_factory=list)
 
@@ -41,13 +41,13 @@ def read(file: Path, kind: str) -> Element:
 
 def read_xml(file: Path, text: str) -> Element:
     """The root element of XML. Raises BadLaunchFile."""
-    top = Element("", Place(file, 0))
+    top = Element("", LaunchFileLine(file, 0))
     open_ones = [top]
     parser = expat.ParserCreate()
 
     def begin(tag: str, attributes: dict[str, str]) -> None:
-        place = Place(file, parser.CurrentLineNumber)
-        element = Element(plain_name(tag), place, _named(attributes))
+        place = LaunchFileLine(file, parser.CurrentLineNumber)
+        element = Element(tag, place, dict(attributes))
         open_ones[-1].children.append(element)
         open_ones.append(element)
 
@@ -57,17 +57,8 @@ def read_xml(file: Path, text: str) -> Element:
         parser.Parse(text, True)
     except expat.ExpatError as fault:
         reason = expat.ErrorString(fault.code)
-        raise BadLaunchFile(Place(file, fault.lineno), f"no valid XML: {reason}") from None
+        raise BadLaunchFile(LaunchFileLine(file, fault.lineno), f"no valid XML: {reason}") from None
     return top.children[0]
-
-
-def plain_name(name: str) -> str:
-    """Jazzy writes `launch-prefix` and `launch_prefix`."""
-    return name.replace("-", "_")
-
-
-def _named(attributes: Mapping[str, Any]) -> dict[str, Any]:
-    return {plain_name(name): value for name, value in attributes.items()}
 
 
 def read_yaml(file: Path, text: str) -> Element:
@@ -78,7 +69,7 @@ def read_yaml(file: Path, text: str) -> Element:
         node = yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.MarkedYAMLError as fault:
         line = fault.problem_mark.line + 1 if fault.problem_mark else 1
-        raise BadLaunchFile(Place(file, line), f"no valid YAML: {fault.problem}") from None
+        raise BadLaunchFile(LaunchFileLine(file, line), f"no valid YAML: {fault.problem}") from None
     elements = _elements(file, node)
     if len(elements) != 1:
         raise BadLaunchFile(file.name, f"the file needs one entry at its top: {ROOT}")
@@ -91,14 +82,14 @@ def _elements(file: Path, node: Any) -> list[Element]:
 
     if not isinstance(node, yaml.MappingNode):
         line = node.start_mark.line + 1 if node else 1
-        raise BadLaunchFile(Place(file, line), "here a name and a colon are needed")
+        raise BadLaunchFile(LaunchFileLine(file, line), "here a name and a colon are needed")
     return [_element(file, key.value, key.start_mark.line + 1, value) for key, value in node.value]
 
 
 def _element(file: Path, tag: str, line: int, node: Any) -> Element:
     import yaml
 
-    element = Element(plain_name(tag), Place(file, line))
+    element = Element(tag, LaunchFileLine(file, line))
     if isinstance(node, yaml.SequenceNode):
         element.children = [one for item in node.value for one in _elements(file, item)]
     elif isinstance(node, yaml.MappingNode):
@@ -111,15 +102,17 @@ def _take(file: Path, element: Element, key: Any, value: Any) -> None:
     """A list of mappings is elements inside; anything else is an attribute."""
     import yaml
 
-    items = value.value if isinstance(value, yaml.SequenceNode) else []
-    if items and all(isinstance(item, yaml.MappingNode) for item in items):
+    is_list = isinstance(value, yaml.SequenceNode)
+    items = value.value if is_list else []
+    inside = is_list and key.value == "children"  # `timer: {period: 1.0, children: [...]}`
+    if inside or (items and all(isinstance(item, yaml.MappingNode) for item in items)):
         line = key.start_mark.line + 1
-        if key.value == "children":  # as in Jazzy: `timer: {period: 1.0, children: [...]}`
+        if inside:
             element.children += [one for item in items for one in _elements(file, item)]
         else:
             element.children += [_element(file, key.value, line, item) for item in items]
     else:
-        element.attributes[plain_name(key.value)] = _plain(value)
+        element.attributes[key.value] = _plain(value)
 
 
 def _plain(node: Any) -> Any:

@@ -12,8 +12,8 @@ from rclpy.time import Time
 
 from ros2_on_pip.stand_ins._frames import errors
 from ros2_on_pip.stand_ins._frames.errors import NANOSECONDS, TransformException, seconds
-from ros2_on_pip.stand_ins._frames.history import Step
-from ros2_on_pip.stand_ins._frames.motion import Motion, compose
+from ros2_on_pip.stand_ins._frames.history import ParentTransform
+from ros2_on_pip.stand_ins._frames.motion import RigidTransform, compose
 from ros2_on_pip.stand_ins._frames.tree import NO_PARENT, FrameTree
 
 KEPT_S = 10.0
@@ -46,14 +46,16 @@ class BufferCore:
 
     def _set(self, told: Any, authority: str, static: bool) -> None:
         child = told.child_frame_id.removeprefix("/")
-        step = Step(told.header.frame_id.removeprefix("/"), motion_of(told.transform))
+        step = ParentTransform(told.header.frame_id.removeprefix("/"), motion_of(told.transform))
         faults = _faults(child, step, authority)
         for fault in faults:
             get_logger("tf2").error(fault)
         if not faults:
             self._keep(child, time_ns_of(told.header.stamp), step, authority, static)
 
-    def _keep(self, child: str, time_ns: int, step: Step, authority: str, static: bool) -> None:
+    def _keep(
+        self, child: str, time_ns: int, step: ParentTransform, authority: str, static: bool
+    ) -> None:
         with self._lock:
             if static:
                 self._tree.set_static(child, step)
@@ -217,7 +219,7 @@ class BufferCore:
             return [*up, *self._tree.chain(target_frame, fixed_frame, now_ns)[1:]]
 
 
-def _faults(child: str, step: Step, authority: str) -> list[str]:
+def _faults(child: str, step: ParentTransform, authority: str) -> list[str]:
     """What makes a step one that nobody can use, in geometry2's words."""
     (shift, rotation), parent = step.motion, step.parent
     found = {
@@ -241,13 +243,13 @@ def _told(numbers: tuple[float, ...]) -> str:
 # --- ROS's messages and times ---
 
 
-def motion_of(transform: Any) -> Motion:
+def motion_of(transform: Any) -> RigidTransform:
     """Of a geometry_msgs/msg/Transform."""
     shift, turn = transform.translation, transform.rotation
-    return Motion((shift.x, shift.y, shift.z), (turn.x, turn.y, turn.z, turn.w))
+    return RigidTransform((shift.x, shift.y, shift.z), (turn.x, turn.y, turn.z, turn.w))
 
 
-def stamped(motion: Motion, frame: str, child: str, time_ns: int) -> Any:
+def stamped(motion: RigidTransform, frame: str, child: str, time_ns: int) -> Any:
     """A geometry_msgs/msg/TransformStamped."""
     # Filled in after it is made: what is given to a message is made once more for nothing.
     made = TransformStamped()

@@ -1,7 +1,7 @@
 """Euler angles: three turns in a row, about axes that stand or that turn with the frame.
 
-A sequence is written as in `tf_transformations`: `sxyz` turns about the standing axes x, y, z, in
-this order (roll, pitch, yaw), `rzyx` about the rotating axes z, y, x. There are 24.
+A sequence is written as in `tf_transformations`. `sxyz` turns about the standing axes x, y, z, in
+this order (roll, pitch, yaw). `rzyx` turns about the rotating axes z, y, x. There are 24.
 """
 
 from __future__ import annotations

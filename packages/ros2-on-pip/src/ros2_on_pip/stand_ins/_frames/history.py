@@ -7,17 +7,17 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ros2_on_pip.stand_ins._frames.errors import FUTURE, ONE_TIME, PAST, seconds
-from ros2_on_pip.stand_ins._frames.motion import Motion, between
+from ros2_on_pip.stand_ins._frames.motion import RigidTransform, between
 
 LATEST = 0
 """The time that asks for the newest there is."""
 
 
-class Step(NamedTuple):
+class ParentTransform(NamedTuple):
     """From a frame to its parent, at one moment."""
 
     parent: str
-    motion: Motion
+    motion: RigidTransform
 
 
 class NotKnown(Exception):
@@ -28,17 +28,17 @@ class NotKnown(Exception):
 class Static:
     """A frame that never moves: the last word counts, for all times."""
 
-    step: Step
+    step: ParentTransform
     newest_ns: int = LATEST
     oldest_ns: int = LATEST
     length: int = 1
 
     @property
-    def newest(self) -> Step:
+    def newest(self) -> ParentTransform:
         """The step; it holds for ever."""
         return self.step
 
-    def at(self, time_ns: int) -> Step:
+    def at(self, time_ns: int) -> ParentTransform:
         """The same at each time."""
         return self.step
 
@@ -53,7 +53,7 @@ class Moving:
     keep_ns: int
     _times_ns: list[int] = field(default_factory=list)
     """Ascending, each once, beside `_steps`."""
-    _steps: list[Step] = field(default_factory=list)
+    _steps: list[ParentTransform] = field(default_factory=list)
 
     @property
     def newest_ns(self) -> int:
@@ -71,11 +71,11 @@ class Moving:
         return len(self._times_ns)
 
     @property
-    def newest(self) -> Step | None:
+    def newest(self) -> ParentTransform | None:
         """The last that is known."""
         return self._steps[-1] if self._steps else None
 
-    def insert(self, time_ns: int, step: Step) -> bool:
+    def insert(self, time_ns: int, step: ParentTransform) -> bool:
         """Whether it is kept: what is older than all that is kept is not.
 
         Of two for the same moment the later counts.
@@ -99,7 +99,7 @@ class Moving:
         self._times_ns.clear()
         self._steps.clear()
 
-    def at(self, time_ns: int) -> Step:
+    def at(self, time_ns: int) -> ParentTransform:
         """The step at that time, or the newest. Raises NotKnown."""
         times_ns, steps = self._times_ns, self._steps
         if time_ns == LATEST and steps:
@@ -114,7 +114,7 @@ class Moving:
             return older
         start_ns = times_ns[after - 1]
         part = (time_ns - start_ns) / (times_ns[after] - start_ns)
-        return Step(older.parent, between(older.motion, newer.motion, part))
+        return ParentTransform(older.parent, between(older.motion, newer.motion, part))
 
     def _beyond(self, time_ns: int) -> NotKnown:
         if not self._times_ns:

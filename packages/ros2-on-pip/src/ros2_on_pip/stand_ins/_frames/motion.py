@@ -17,10 +17,10 @@ Matrix = tuple[Vector, Vector, Vector]
 NO_ROTATION: Quaternion = (0.0, 0.0, 0.0, 1.0)
 NEARLY_EQUAL = 1.0 - 1e-9
 """Cosine of half the angle between two rotations from which on a straight line is taken for the
-arc: it is wrong by less than 1e-14 there, and the arc would divide by nearly nothing."""
+arc. The line is wrong by less than 1e-14 there, and the arc would divide by nearly nothing."""
 
 
-class Motion(NamedTuple):
+class RigidTransform(NamedTuple):
     """Where a frame lies: it is turned, then shifted."""
 
     shift: Vector = (0.0, 0.0, 0.0)
@@ -68,30 +68,30 @@ def rotate(q: Quaternion, vector: Vector) -> Vector:
     )
 
 
-def apply(motion: Motion, point: Vector) -> Vector:
+def apply(motion: RigidTransform, point: Vector) -> Vector:
     """A point of the moved frame, in the frame that it lies in."""
     x, y, z = rotate(motion.rotation, point)
     sx, sy, sz = motion.shift
     return x + sx, y + sy, z + sz
 
 
-def compose(outer: Motion, inner: Motion) -> Motion:
+def compose(outer: RigidTransform, inner: RigidTransform) -> RigidTransform:
     """Where `inner` lies, which is told in the frame of `outer`, for those outside of it."""
-    return Motion(apply(outer, inner.shift), product(outer.rotation, inner.rotation))
+    return RigidTransform(apply(outer, inner.shift), product(outer.rotation, inner.rotation))
 
 
-def inverse(motion: Motion) -> Motion:
+def inverse(motion: RigidTransform) -> RigidTransform:
     """Where the outer frame lies in the moved one."""
     back = conjugate(motion.rotation)
     x, y, z = rotate(back, motion.shift)
-    return Motion((-x, -y, -z), back)
+    return RigidTransform((-x, -y, -z), back)
 
 
-def between(a: Motion, b: Motion, part: float) -> Motion:
+def between(a: RigidTransform, b: RigidTransform, part: float) -> RigidTransform:
     """On the way from a (part 0) to b (part 1): shifts on a line, rotations on the shorter arc."""
     (ax, ay, az), (bx, by, bz) = a.shift, b.shift
     shift = ax + (bx - ax) * part, ay + (by - ay) * part, az + (bz - az) * part
-    return Motion(shift, slerp(a.rotation, b.rotation, part))
+    return RigidTransform(shift, slerp(a.rotation, b.rotation, part))
 
 
 def slerp(a: Quaternion, b: Quaternion, part: float) -> Quaternion:

@@ -1,7 +1,7 @@
 """All frames, and how one reaches from one to another. It knows nothing of ROS's messages.
 
-Target and source are as in tf2: asked for is what takes numbers of SOURCE to numbers of TARGET,
-which is where the frame `source` lies in the frame `target`.
+Target and source are as in tf2. Asked for is what takes numbers of SOURCE to numbers of TARGET.
+That is where the frame `source` lies in the frame `target`.
 """
 
 from __future__ import annotations
@@ -24,8 +24,15 @@ from ros2_on_pip.stand_ins._frames.errors import (
     LookupException,
     TransformException,
 )
-from ros2_on_pip.stand_ins._frames.history import LATEST, History, Moving, NotKnown, Static, Step
-from ros2_on_pip.stand_ins._frames.motion import Motion, compose, inverse
+from ros2_on_pip.stand_ins._frames.history import (
+    LATEST,
+    History,
+    Moving,
+    NotKnown,
+    ParentTransform,
+    Static,
+)
+from ros2_on_pip.stand_ins._frames.motion import RigidTransform, compose, inverse
 
 HIGHEST = 1000
 """A frame with more ancestors lies in a loop (MAX_GRAPH_DEPTH of geometry2)."""
@@ -41,12 +48,12 @@ class FrameTree:
     names: dict[str, None] = field(default_factory=dict)
     """Of all frames, roots too, in the order in which they were told of."""
 
-    def set_static(self, child: str, step: Step) -> None:
+    def set_static(self, child: str, step: ParentTransform) -> None:
         """The child lies so at all times."""
         self.histories[child] = Static(step)
         self._name(child, step.parent)
 
-    def set_moving(self, child: str, time_ns: int, step: Step) -> bool:
+    def set_moving(self, child: str, time_ns: int, step: ParentTransform) -> bool:
         """The child lay so at that time; whether that is kept."""
         history = self.histories.get(child)
         if not isinstance(history, Moving):
@@ -83,13 +90,13 @@ class FrameTree:
         history = self.histories.get(frame)
         return history.newest_ns if history else LATEST
 
-    def look_up(self, target: str, source: str, time_ns: int) -> tuple[Motion, int]:
+    def look_up(self, target: str, source: str, time_ns: int) -> tuple[RigidTransform, int]:
         """Where `source` lies in `target`, and of when that is.
 
         Raises ConnectivityException, ExtrapolationException and LookupException.
         """
         if target == source:
-            return Motion(), time_ns or self.newest_ns(target)
+            return RigidTransform(), time_ns or self.newest_ns(target)
         if time_ns == LATEST:
             time_ns = self.common_ns(target, source)
         up, top, gap = self._climb(source, (target,), time_ns)
@@ -102,12 +109,12 @@ class FrameTree:
 
     def _climb(
         self, frame: str, goals: tuple[str, ...], time_ns: int
-    ) -> tuple[Motion, str, str | None]:
+    ) -> tuple[RigidTransform, str, str | None]:
         """From `frame` up to a goal, or as far as it goes: where `frame` lies in what was reached.
 
         Where the time is what stops it, the third is geometry2's text; else None.
         """
-        motion = Motion()
+        motion = RigidTransform()
         for _ in range(HIGHEST + 1):
             history = self.histories.get(frame)
             if history is None or frame in goals:

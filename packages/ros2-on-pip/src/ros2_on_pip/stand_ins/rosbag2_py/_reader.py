@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator
 
-from ros2_on_pip.rosbag2.choosing import Choice
+from ros2_on_pip.rosbag2.choosing import TopicFilter
 from ros2_on_pip.rosbag2.reading import BagReader, Message, open_bag
 
 from ._errors import as_runtime_error, path_of, require_text
@@ -33,7 +33,7 @@ class SequentialReader:
     def __init__(self) -> None:
         self._bag: BagReader | None = None
         self._order = ReadOrder()
-        self._choice = Choice()
+        self._choice = TopicFilter()
         self._next: Message | None = None
         self._messages: Iterator[Message] = iter(())
         self._last_ns: int | None = None
@@ -97,11 +97,12 @@ class SequentialReader:
         self._require()
         asked = storage_filter
         with as_runtime_error():
-            self._choice = Choice(
+            self._choice = TopicFilter(
                 names=[*asked.topics, *asked.services_events],
                 regex=asked.regex,
                 without=[*asked.exclude_topics, *asked.exclude_service_events],
                 without_regex=asked.regex_to_exclude,
+                whole_names=True,
             )
         self._go_on_from_here()
 

@@ -225,7 +225,7 @@ def to_bag(found: BagMetadata) -> bag.Metadata:
             for each in found.topics_with_message_count
         ),
         files=tuple(
-            bag.File(name, spans.get(name, bag.Span())) for name in found.relative_file_paths
+            bag.File(name, spans.get(name, bag.MessageSpan())) for name in found.relative_file_paths
         ),
         span=_span(found.message_count, found.starting_time, found.duration.nanoseconds),
         compression_format=found.compression_format,
@@ -237,15 +237,15 @@ def to_bag(found: BagMetadata) -> bag.Metadata:
     )
 
 
-def _file_span(file: FileInformation) -> bag.Span:
+def _file_span(file: FileInformation) -> bag.MessageSpan:
     duration_ns = file.duration // timedelta(microseconds=1) * 1000
     return _span(file.message_count, file.starting_time, duration_ns)
 
 
-def _span(count: int, start: Any, duration_ns: int) -> bag.Span:
+def _span(count: int, start: Any, duration_ns: int) -> bag.MessageSpan:
     if not count:
-        return bag.Span()
-    return bag.Span(count, start.nanoseconds, start.nanoseconds + duration_ns)
+        return bag.MessageSpan()
+    return bag.MessageSpan(count, start.nanoseconds, start.nanoseconds + duration_ns)
 
 
 def from_bag(found: bag.Metadata) -> BagMetadata:

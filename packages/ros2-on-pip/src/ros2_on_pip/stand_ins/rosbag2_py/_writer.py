@@ -6,7 +6,7 @@ import weakref
 
 from ros2_on_pip.rosbag2.packing import ZSTD
 from ros2_on_pip.rosbag2.reindexing import require_storage
-from ros2_on_pip.rosbag2.writing import BagWriter, Compression, Plan
+from ros2_on_pip.rosbag2.writing import BagWriter, BagWriterOptions, Compression
 
 from ._compression_options import CompressionMode, CompressionOptions
 from ._errors import as_runtime_error, path_of
@@ -35,7 +35,7 @@ class SequentialWriter:
         with as_runtime_error():
             require_storage((), storage_options.storage_id)
         _require_known(storage_options, converter_options)
-        plan = Plan(
+        plan = BagWriterOptions(
             storage=storage_options.storage_id or get_default_storage_id(),
             compression=self._compression,
             max_size=storage_options.max_bagfile_size,
@@ -63,8 +63,12 @@ class SequentialWriter:
             bag.add_topic(to_topic(topic))
 
     def remove_topic(self, topic: TopicMetadata) -> None:
-        """Forget a topic that has no message yet; one that has stays in the bag."""
-        self._require().remove_topic(topic.name)
+        """Forget a topic, with the messages that it has. Raises RuntimeError for an unknown one."""
+        bag = self._require()
+        if not bag.has(topic.name):
+            raise RuntimeError(f'Failed to remove the non-existing topic "{topic.name}"!')
+        with as_runtime_error():
+            bag.remove_topic(topic.name)
 
     def write(self, topic_name: str, message: bytes, timestamp: int) -> None:
         """One message: its bytes (`serialize_message`), and when it came, in ns since 1970.
@@ -101,9 +105,12 @@ class SequentialWriter:
 class SequentialCompressionWriter(SequentialWriter):
     """The same, compressed."""
 
-    def __init__(self, compression_options: CompressionOptions | None = None) -> None:
+    def __init__(self, compression_options: CompressionOptions) -> None:
+        """Raises TypeError, and RuntimeError where the options do not compress."""
         super().__init__()
-        asked = compression_options or CompressionOptions(ZSTD, CompressionMode.FILE)
+        asked = compression_options
+        if not isinstance(asked, CompressionOptions):
+            raise TypeError(f"CompressionOptions(...) is wanted, not {asked!r}")
         if asked.compression_mode == CompressionMode.NONE or asked.compression_format != ZSTD:
             raise RuntimeError("a compression needs the format zstd, and the mode FILE or MESSAGE")
         self._compression = "file" if asked.compression_mode == CompressionMode.FILE else "message"

@@ -19,7 +19,7 @@ from geometry_msgs.msg import (
 
 from ros2_on_pip.stand_ins._frames.motion import (
     Matrix,
-    Motion,
+    RigidTransform,
     apply,
     compose,
     matrix,
@@ -46,7 +46,7 @@ def do_transform_vector3(vector3: Any, transform: Any) -> Any:
 def do_transform_pose(pose: Any, transform: Any) -> Any:
     """A Pose, which has no header. A quaternion of zeros is taken for no rotation."""
     turn = pose.orientation
-    lies = Motion(_vector(pose.position), normalized((turn.x, turn.y, turn.z, turn.w)))
+    lies = RigidTransform(_vector(pose.position), normalized((turn.x, turn.y, turn.z, turn.w)))
     (px, py, pz), (x, y, z, w) = compose(_motion(transform), lies)
     sign = 1.0 if w >= 0.0 else -1.0  # of the two that are the same rotation, as geometry2
     return Pose(
@@ -99,10 +99,10 @@ def from_msg_msg(msg: Any) -> Any:
     return msg
 
 
-def _motion(transform: Any) -> Motion:
+def _motion(transform: Any) -> RigidTransform:
     turn = transform.transform.rotation
     rotation = normalized((turn.x, turn.y, turn.z, turn.w))
-    return Motion(_vector(transform.transform.translation), rotation)
+    return RigidTransform(_vector(transform.transform.translation), rotation)
 
 
 def _vector(told: Any) -> tuple[float, float, float]:

@@ -23,7 +23,7 @@ class TransformListener:
     """Subscribes to /tf and /tf_static, and fills a buffer.
 
     The node holds the subscriptions, and they hold the listener: it goes on hearing when nothing
-    else has a name for it. Its callbacks run when the node spins; a look-up that waits in another
+    else has a name for it. Its callbacks run when the node spins. A look-up that waits in another
     callback of one thread waits in vain, unless the listener has its own (`spin_thread`).
     """
 

@@ -8,12 +8,13 @@ from contextlib import suppress
 from difflib import get_close_matches
 
 from ros2_on_pip.errors import OK
+from ros2_on_pip.language import said
 from roslings import course
 from roslings.commands.options import path_option
-from roslings.way import drills_left, drills_there
+from roslings.commands.way import ALL_DONE, drills_left, drills_there
 from roslings.workspace import progress
 from roslings_learn.commands.watch.keyboard import Keyboard, keyboard
-from roslings_learn.commands.watch.session import Session
+from roslings_learn.commands.watch.session import WatchSession
 from roslings_learn.drills import NoSuchDrill
 
 
@@ -80,19 +81,19 @@ def next_name(passed_over: frozenset[str] = frozenset()) -> str | None:
     """The drill or the lab that comes next on the way; None, and a word, when all is done."""
     at = progress.today().at
     if at is None:
-        print("All labs are done. Well done!")
+        print(ALL_DONE)
         return None
     up_to_here = (drill for day, drill in drills_left() if day <= at.lab.outline.day)
     return next((drill for drill in up_to_here if drill not in passed_over), at.lab.name)
 
 
-def _session(name: str, options: argparse.Namespace, keys: Keyboard) -> Session:
+def _session(name: str, options: argparse.Namespace, keys: Keyboard) -> WatchSession:
     """Of a drill, where one is called so; else of a lab. Raises CourseError."""
     if name in {drill for _, drill in drills_there()} and options.path is None:
         from roslings_learn.commands.watch.drill import begun as drill_begun
 
         return drill_begun(name, keys)
-    from roslings.own_card import own_lab
+    from roslings.workspace.own_card import own_lab
     from roslings_learn.commands.watch.lab import begun as lab_begun
 
     _insist_on_a_name(name)
@@ -105,4 +106,5 @@ def _insist_on_a_name(name: str) -> None:
     labs = [lab.name for lab in course.all_labs()]
     near = get_close_matches(name, [*labs, *drills], n=1)
     if name not in labs and near and near[0] in drills:
-        raise NoSuchDrill(f"There is no lab and no drill {name!r}. Did you mean {near[0]!r}?")
+        text = "There is no lab and no drill {name!r}. Did you mean {near!r}?"
+        raise NoSuchDrill(said("watch.no_such", text, name=name, near=near[0]))

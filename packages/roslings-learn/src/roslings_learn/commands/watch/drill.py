@@ -6,25 +6,29 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ros2_on_pip.language import Text, said
 from ros2_on_pip.typed_paths import shown
-from roslings.typed import program
+from roslings.commands.invocation import program
 from roslings_learn.commands.watch.keyboard import Keyboard
-from roslings_learn.commands.watch.session import Offer, Ours, Session, tell
+from roslings_learn.commands.watch.session import KeyAction, Ours, WatchSession, say, tell
 from roslings_learn.drills import Drill, all_drills, drill, telling
 from roslings_learn.drills.command import checked
 from roslings_learn.drills.judging import DrillVerdict
 from roslings_learn.drills.student import begin_again, is_changed, start, statuses
 
+SKIP, RESET = Text("watch.key.skip", "skip"), Text("watch.key.reset", "reset")
+NOTHING_TO_RESET = Text("watch.nothing_to_reset", "Your file is the starter, as it was.")
+
 
 def begun(name: str, keys: Keyboard) -> DrillSession:
-    """The starter is put there for who has none. Raises DiskFull, CannotWrite."""
+    """The starter is put there for who has none. Raises DiskFull, CannotWriteFolder."""
     one = drill(name)
     file, _ = start(one)
     return DrillSession(keys, file.parent, one.day, one, file)
 
 
 @dataclass
-class DrillSession(Session):
+class DrillSession(WatchSession):
     """One file that is run at each save."""
 
     drill: Drill
@@ -57,7 +61,9 @@ class DrillSession(Session):
         names = [each.name for each in all_drills()]
         page = telling.page()
         place = (names.index(self.drill.name) + 1, len(names))
-        telling.put_task(page, self.drill, self.file, place, telling.Way(program(), watched=True))
+        telling.put_task(
+            page, self.drill, self.file, place, telling.WayToGoOn(program(), watched=True)
+        )
         page.print()
         print(flush=True)
 
@@ -66,7 +72,7 @@ class DrillSession(Session):
         try:
             with self.checking():
                 self.verdict = checked(self.drill, self.file, time.monotonic())
-            way = telling.Way(program(), watched=True)
+            way = telling.WayToGoOn(program(), watched=True)
             telling.put_verdict(page, self.drill, self.verdict, self.file, way)
             page.print()
         except Exception as error:
@@ -79,7 +85,9 @@ class DrillSession(Session):
         if self.drill.has_solution:
             self.solved = Ours(self.drill.name, self._show_ours)
             if self.keys.keys:
-                print(f"\nc shows our {self.drill.name} beside yours.", flush=True)
+                beside = "{key} shows our {drill} beside yours."
+                told = said("watch.beside", beside, key="c", drill=self.drill.name)
+                print(f"\n{told}", flush=True)
 
     def _show_ours(self) -> None:
         page = telling.page()
@@ -101,26 +109,30 @@ class DrillSession(Session):
         telling.put_day(page, statuses(), self.drill, program())
         page.print()
 
-    def offers(self) -> list[Offer]:
+    def offers(self) -> list[KeyAction]:
         """A drill can be passed over, and begun again."""
         changed = is_changed(self.drill)
         return [
-            Offer("s", "skip", self._skip, not self.is_done()),
-            Offer("x", "reset", self._reset, changed, "Your file is the starter, as it was."),
+            KeyAction("s", SKIP, self._skip, not self.is_done()),
+            KeyAction("x", RESET, self._reset, changed, NOTHING_TO_RESET),
         ]
 
     def _skip(self) -> None:
-        print(f"\n{self.drill.name} is left out. It comes again at the next {program()} watch.")
+        left_out = "{drill} is left out. It comes again at the next {command}."
+        command = f"{program()} watch"
+        say(said("watch.left_out", left_out, drill=self.drill.name, command=command))
         self.go_on()
 
     def _reset(self) -> None:
         """The first press tells what the second does; what is put back is a save."""
         if not self._resets:
             self._resets = True
-            print("\nx: press x once more, and the starter comes back. Your file is kept.")
+            twice = "{key}: press {key} once more, and the starter comes back. Your file is kept."
+            say(said("watch.reset_twice", twice, key="x"))
             return
         self._resets = False
-        print(f"\nThe starter is back. Yours is kept: {shown(begin_again(self.drill))}", flush=True)
+        back, kept = "The starter is back. Yours is kept: {file}", shown(begin_again(self.drill))
+        say(said("watch.reset_done", back, file=kept))
 
     def is_done(self) -> bool:
         """It is mended."""

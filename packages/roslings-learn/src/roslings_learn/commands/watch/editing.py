@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from ros2_on_pip.label_column import wrapped
+from ros2_on_pip.language import said
 from ros2_on_pip.typed_paths import shown
 
 TO_DO = re.compile(r"#\s*TODO\b")
@@ -22,7 +24,7 @@ WITHOUT_A_WINDOW = {"emacs": "-nw"}
 
 
 @dataclass(frozen=True)
-class Place:
+class FileLine:
     """A line of a file."""
 
     file: Path
@@ -34,28 +36,30 @@ def edit(package: Path) -> None:
     place = first_to_do(package)
     command = editor_for(place, package)
     if command is None:
-        print(f"\nOpen {shown(place.file)}, line {place.line}, in your editor.", flush=True)
+        text, file = "Open {file}, line {line}, in your editor.", shown(place.file)
+        told = said("watch.open", text, file=file, line=place.line)
+        print("", *wrapped(told), sep="\n", flush=True)
         return
     subprocess.run(command, check=False)
 
 
-def first_to_do(package: Path) -> Place:
+def first_to_do(package: Path) -> FileLine:
     """The first line with a TODO; else the first file of the package's own code."""
     files = sorted(_code_of(package)) if package.is_dir() else [package]
     for file in files:
         lines = file.read_text("utf-8", "replace").splitlines()
         for number, line in enumerate(lines, start=1):
             if TO_DO.search(line):
-                return Place(file, number)
-    return Place(files[0]) if files else Place(package)
+                return FileLine(file, number)
+    return FileLine(files[0]) if files else FileLine(package)
 
 
 def is_there() -> bool:
     """Whether some editor can be opened here."""
-    return editor_for(Place(Path("file")), Path()) is not None
+    return editor_for(FileLine(Path("file")), Path()) is not None
 
 
-def editor_for(place: Place, package: Path) -> list[str] | None:
+def editor_for(place: FileLine, package: Path) -> list[str] | None:
     """VS Code where this is its terminal, or where nothing else is set; else $VISUAL or $EDITOR.
 
     Where neither is there, the first editor of a terminal that is installed.
@@ -70,7 +74,7 @@ def editor_for(place: Place, package: Path) -> list[str] | None:
     return _at_the_line([there], place) if there else None
 
 
-def _at_the_line(words: list[str], place: Place) -> list[str]:
+def _at_the_line(words: list[str], place: FileLine) -> list[str]:
     """What opens the file there; which word leads another editor to a line, nobody knows."""
     name = Path(words[0]).name
     if len(words) == 1 and name in WITHOUT_A_WINDOW:

@@ -9,27 +9,33 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ros2_on_pip.language import Text, said
 from ros2_on_pip.typed_paths import from_here
+from roslings.commands.invocation import program
 from roslings.commands.showing import replace_kept, show
 from roslings.course import Lab
-from roslings.typed import program
+from roslings.course.titles import lab_title
 from roslings.workspace import progress
 from roslings.workspace.errors import NotThere
 from roslings.workspace.student import package_of, start
 from roslings_learn.commands.watch.keyboard import Keyboard
-from roslings_learn.commands.watch.session import Offer, Ours, Session, tell
+from roslings_learn.commands.watch.session import KeyAction, Ours, WatchSession, say, tell
 
 if TYPE_CHECKING:
-    from roslings.checking import Ready
     from roslings.evidence import GraphSeen
-    from roslings.saving import Graded
+    from roslings.grading.checking import Ready
+    from roslings.grading.saving import Graded
+
+GRAPH = Text("watch.key.graph", "graph")
+NO_NODE = Text("watch.no_node", "No node has run yet.")
 
 
 def begun(lab: Lab, options: argparse.Namespace, keys: Keyboard) -> LabSession:
     """The starter is put there for who has none."""
     options.lab = lab.name
     if options.path is None and _package_there(lab) is None:
-        print(f"The starter of {lab.name!r} is in {from_here(start(lab).package)}.")
+        text, package = "The starter of {lab!r} is in {package}.", from_here(start(lab).package)
+        print(said("watch.started", text, lab=lab.name, package=package))
     return LabSession(keys, package_of(lab, options.path), lab.outline.day, lab, options)
 
 
@@ -38,7 +44,7 @@ def _package_there(lab: Lab) -> Path | None:
 
 
 @dataclass
-class LabSession(Session):
+class LabSession(WatchSession):
     """A package that is built and graded at each save."""
 
     lab: Lab
@@ -47,7 +53,7 @@ class LabSession(Session):
 
     def run(self) -> bool:
         """With all loaded that is the same for each check."""
-        from roslings.checking import ready_again_and_again
+        from roslings.grading.checking import ready_again_and_again
 
         with closing(ready_again_and_again(self.lab)) as each_ready:
             ready = next(each_ready)
@@ -56,7 +62,8 @@ class LabSession(Session):
                 ready = next(each_ready)  # only the save is waited for
                 if self.is_done() and self.keys.keys:
                     self._tell_of_ours()
-                    print(f"\nDone. To hand it in: {program()} pack {self.lab.name}")
+                    pack = f"{program()} pack {self.lab.name}"
+                    say(said("watch.hand_in", "Done. To hand it in: {command}", command=pack))
                 self.say_that_it_waits()
         return self.goes_on
 
@@ -81,13 +88,15 @@ class LabSession(Session):
     def show_hint(self, step: int) -> None:
         """For the first check that failed."""
         if self.graded is None:
-            print("\nThere is no verdict to give a hint for.", flush=True)
+            say(said("watch.no_verdict", "There is no verdict to give a hint for."))
         else:
             show(self.graded.verdict, argparse.Namespace(**{**vars(self.options), "hint": step}))
 
-    def offers(self) -> list[Offer]:
+    def offers(self) -> list[KeyAction]:
         """What the last check saw."""
-        return [Offer("g", "graph", self._show_graph, bool(self._graph), "No node has run yet.")]
+        return [
+            KeyAction("g", GRAPH, self._show_graph, bool(self._graph), NO_NODE),
+        ]
 
     def _show_graph(self) -> None:
         from ros2_on_pip.graph.words import graph_text
@@ -136,4 +145,5 @@ class LabSession(Session):
     @property
     def title(self) -> str:
         """The day and what it is about."""
-        return f"Day {self.lab.outline.day}: {self.lab.outline.title}"
+        day = self.lab.outline.day
+        return said("watch.day", "Day {day}: {title}", day=day, title=lab_title(self.lab))

@@ -8,12 +8,14 @@ import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
+from ros2_on_pip.language import Text, said
 from roslings.course import root
 from roslings.report.lesson_link import link_of
 from roslings_learn.lessons.glossary import LINK
 from roslings_learn.lessons.rules.prose import slug
 
 COLUMNS = 80
+PICTURED = Text("watch.picture", "(Picture: {what})")
 HEADING = re.compile(r"^(#{1,4}) (.+)$")
 DIRECTIVE = re.compile(r"^(:::|```\{)")
 PICTURE = re.compile(r"!\[([^\]]*)\]\([^)]*\)")
@@ -29,10 +31,12 @@ def show(lesson: str, program: str) -> None:
         print(line)
     page = link_of(lesson)
     if page:
-        print(f"\nThe whole page: {page}", flush=True)
+        print(f"\n{said('watch.page', 'The whole page: {page}', page=page)}", flush=True)
     else:
         number = int(Path(day).name[:2])
-        print(f"\nThe whole lesson, in another terminal: {program} lab {number}", flush=True)
+        text = "The whole lesson, in another terminal: {command}"
+        told = said("watch.lesson", text, command=f"{program} lab {number}")
+        print(f"\n{told}", flush=True)
 
 
 def section(notebook: Path, anchor: str) -> Iterator[str]:
@@ -89,7 +93,7 @@ def _prose(lines: list[str]) -> Iterator[str]:
 
 def _plain(text: str) -> str:
     """Words are words here, and no links."""
-    text = PICTURE.sub(r"(Picture: \1)", text)
+    text = PICTURE.sub(lambda found: PICTURED.filled(what=found[1]), text)
     for pattern in (LINK, OTHER_LINK):
         text = pattern.sub(r"\1", text)
     return MARKS.sub("", text)

@@ -8,8 +8,10 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from roslings.typed import program
-from roslings.way import bar
+from ros2_on_pip.label_column import side_by_side, wrapped
+from ros2_on_pip.language import Text, said
+from roslings.commands.invocation import program
+from roslings.commands.way import bar
 from roslings.workspace import progress
 from roslings.workspace.errors import CannotRead, ChangedMeanwhile
 from roslings_launcher.cli import explain
@@ -19,17 +21,37 @@ from roslings_learn.commands.watch.keyboard import QUIT, Keyboard
 EDIT, RUN = "e", "r"
 MOST_HINTS = 3
 CLEAR = "\x1b[2J\x1b[H"
-COLUMNS = 80
 BETWEEN = "   "
+KEYS = {
+    "hint": Text("watch.key.hint", "hint"),
+    "edit": Text("watch.key.edit", "edit"),
+    "run": Text("watch.key.run", "run"),
+    "lesson": Text("watch.key.lesson", "lesson"),
+    "compare": Text("watch.key.compare", "compare"),
+    "all": Text("watch.key.all", "all"),
+    "next": Text("watch.key.next", "next"),
+    "quit": Text("watch.key.quit", "quit"),
+}
+"""What keys are called in the line of keys."""
+NOTHING_NOW = Text("watch.nothing_now", "There is nothing for it now.")
+NO_HINT = Text("watch.no_hint", "All passes: there is nothing to hint at.")
+NO_EDITOR = Text("watch.no_editor", "There is no editor that I know.")
+NOT_COMPARED = Text("watch.not_compared", "Our solution is shown beside yours when yours passes.")
+NOT_DONE = Text("watch.not_done", "This one is not done yet. To leave it: `q`")
 
 
 def tell(error: Exception) -> None:
     """What cannot be checked now may be right at the next save. Raises what nobody expects."""
     if isinstance(error, FileNotFoundError | IsADirectoryError | NotADirectoryError):
-        error = ChangedMeanwhile(Path(error.filename or "A file"))
+        error = ChangedMeanwhile(Path(error.filename or said("watch.a_file", "A file")))
     if isinstance(error, PermissionError) and error.filename:
         error = CannotRead(Path(error.filename))
     explain(error)
+
+
+def say(text: str) -> None:
+    """After an empty line, in lines of 80 columns, at once."""
+    print("", *wrapped(text), sep="\n", flush=True)
 
 
 def _nothing() -> None:
@@ -37,15 +59,15 @@ def _nothing() -> None:
 
 
 @dataclass(frozen=True)
-class Offer:
+class KeyAction:
     """A key, what it is called in the line of keys, and what it does."""
 
     key: str
-    word: str
+    word: Text
     does: Callable[[], None]
     now: bool = True
     """Whether it can do that now; one that cannot is not offered."""
-    why_not: str = "There is nothing for it now."
+    why_not: Text = NOTHING_NOW
     """Told to who presses it all the same."""
 
 
@@ -58,7 +80,7 @@ class Ours:
 
 
 @dataclass
-class Session(ABC):
+class WatchSession(ABC):
     """Checks at each save, and follows the keys in between."""
 
     keys: Keyboard
@@ -146,11 +168,16 @@ class Session(ABC):
     def _meaning(self, key: str) -> str:
         """What is said of a key while a check runs."""
         if key == QUIT:
-            return "q: quit. The check is ended."
+            return said("watch.quits", "{key}: quit. The check is ended.", key=key)
         if key == RUN:
-            return "r: one more run, as soon as this check is over."
-        word = next((each.word for each in self._all_offers() if each.key == key), "")
-        return f"{key}: {word}, as soon as this check is over." if word else self._no_meaning(key)
+            once_more = "{key}: one more run, as soon as this check is over."
+            return said("watch.runs_again", once_more, key=key)
+        word = next((each.word for each in self._all_offers() if each.key == key), None)
+        if word is None:
+            return self._no_meaning(key)
+        return said(
+            "watch.soon", "{key}: {word}, as soon as this check is over.", key=key, word=word
+        )
 
     def _head(self, saved: frozenset[Path], again: bool) -> None:
         """On a terminal each verdict stands on a screen of its own; the last one stays at first."""
@@ -159,54 +186,48 @@ class Session(ABC):
             print("\n".join(filter(None, [bar(progress.status()), self.title])))
         if saved:
             there = frozenset(path for path in saved if path.exists())
-            word = "Saved" if there else "Gone"
-            print(f"\n{word}: {self._names(there or saved)}", flush=True)
+            files = self._names(there or saved)
+            now = said("watch.saved", "Saved: {files}", files=files)
+            say(now if there else said("watch.gone", "Gone: {files}", files=files))
 
     def _names(self, paths: frozenset[Path]) -> str:
         inside = (path for path in paths if path != self.folder.resolve())
         names = sorted(str(path.relative_to(self.folder.resolve())) for path in inside)
-        return ", ".join(names[:3]) or f"the folder {self.folder.name}"
+        folder = said("watch.folder", "the folder {name}", name=self.folder.name)
+        return ", ".join(names[:3]) or folder
 
     def say_that_it_waits(self) -> None:
         """What can be done now."""
         if self.keys.keys:
-            print(f"\nSave a file to check again.\n{self._line_of_keys()}", flush=True)
+            save = said("watch.save", "Save a file to check again.")
+            print(f"\n{save}\n{self._line_of_keys()}", flush=True)
         else:
-            print("\nWatching. Save a file to check again; Ctrl-C ends it.", flush=True)
+            say(said("watch.waits", "Watching. Save a file to check again; Ctrl-C ends it."))
 
     # --- the keys -------------------------------------------------------------------------
 
-    def offers(self) -> list[Offer]:
+    def offers(self) -> list[KeyAction]:
         """What else a key does here, in the order in which it is shown."""
         return []
 
-    def _all_offers(self) -> list[Offer]:
+    def _all_offers(self) -> list[KeyAction]:
         is_done = self.is_done()
         return [
-            Offer("h", "hint", self._hint, not is_done, "All passes: there is nothing to hint at."),
-            Offer(EDIT, "edit", self._edit, editing.is_there(), "There is no editor that I know."),
-            Offer(RUN, "run", _nothing),
-            Offer("l", "lesson", self._lesson),
+            KeyAction("h", KEYS["hint"], self._hint, not is_done, NO_HINT),
+            KeyAction(EDIT, KEYS["edit"], self._edit, editing.is_there(), NO_EDITOR),
+            KeyAction(RUN, KEYS["run"], _nothing),
+            KeyAction("l", KEYS["lesson"], self._lesson),
             *self.offers(),
-            Offer(
-                "c",
-                "compare",
-                self._compare,
-                self.solved is not None,
-                "Our solution is shown beside yours when yours passes.",
-            ),
-            Offer("a", "all", self.show_all),
-            Offer("n", "next", self.go_on, is_done, "This one is not done yet. To leave it: q"),
-            Offer(QUIT, "quit", self._quit),
+            KeyAction("c", KEYS["compare"], self._compare, self.solved is not None, NOT_COMPARED),
+            KeyAction("a", KEYS["all"], self.show_all),
+            KeyAction("n", KEYS["next"], self.go_on, is_done, NOT_DONE),
+            KeyAction(QUIT, KEYS["quit"], self._quit),
         ]
 
     def _line_of_keys(self) -> str:
         """The keys that do something now, in lines of 80 columns."""
-        lines = [""]
-        for each in (f"{one.key} {one.word}" for one in self._all_offers() if one.now):
-            longer = BETWEEN.join(filter(None, [lines[-1], each]))
-            lines = [*lines[:-1], longer] if len(longer) <= COLUMNS else [*lines, each]
-        return "\n".join(lines)
+        offers = (f"{one.key} {one.word}" for one in self._all_offers() if one.now)
+        return side_by_side(offers, BETWEEN)
 
     def follow(self, key: str) -> None:
         """What a key asks for; one that can do nothing is answered, too."""
@@ -220,11 +241,13 @@ class Session(ABC):
             if not self.over and key not in (RUN, EDIT):
                 print(f"\n{self._line_of_keys()}", flush=True)
         else:
-            print(f"\n{key}: {asked.why_not}", flush=True)
+            say(f"{key}: {asked.why_not}")
 
     @staticmethod
     def _no_meaning(key: str) -> str:
-        return f"{key if key.isprintable() else 'This key'}: there is no such key here."
+        if not key.isprintable():
+            return said("watch.no_such_key", "This key: there is no such key here.")
+        return said("watch.no_key", "{key}: there is no such key here.", key=key)
 
     def _hint(self) -> None:
         """Each press tells a little more."""
@@ -233,7 +256,7 @@ class Session(ABC):
 
     def _edit(self) -> None:
         if self.keys.keys:
-            with self.keys.keys.lent():
+            with self.keys.keys.handed_over():
                 editing.edit(self.code)
 
     def _lesson(self) -> None:

@@ -27,7 +27,7 @@ DAY = r"(\d\d-[\w-]+)"
 
 
 @dataclass(frozen=True)
-class Watched:
+class WatchedFiles:
     """What the page asks about, again and again."""
 
     copies: Copies
@@ -52,7 +52,7 @@ def _changed(file: Path) -> str:
 class News(JupyterHandler):
     """What has changed, for the page."""
 
-    def initialize(self, watched: Watched) -> None:
+    def initialize(self, watched: WatchedFiles) -> None:
         """Called by Tornado."""
         self._watched = watched
 
@@ -67,7 +67,7 @@ class News(JupyterHandler):
 class CheckPage(JupyterHandler):
     """The page of the newest check: it names in itself that it runs no script."""
 
-    def initialize(self, watched: Watched) -> None:
+    def initialize(self, watched: WatchedFiles) -> None:
         """Called by Tornado."""
         self._watched = watched
 
@@ -88,7 +88,7 @@ def _load_jupyter_server_extension(app: Any) -> None:
     """Called by Jupyter's server."""
     workspace = workspace_root()
     copies = Copies(course.root(), workspace, Glossary(()))  # nothing is copied here
-    watched = Watched(copies, workspace / ".roslings" / "check.html")
+    watched = WatchedFiles(copies, workspace / ".roslings" / "check.html")
     watched.check_page.parent.mkdir(parents=True, exist_ok=True)
     os.environ[OF_SERVER] = app.base_url
     os.environ[WINDOW_PAGE] = str(watched.check_page)

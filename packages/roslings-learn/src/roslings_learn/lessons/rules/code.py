@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from roslings_learn.lessons.rules.concept import parsed
-from roslings_learn.lessons.rules.lesson_file import Broken, Cell, Lesson
+from roslings_learn.lessons.rules.lesson_file import BrokenRule, Lesson, LessonCell
 
 MOST_LINES, MOST_COLUMNS = 15, 88
 FIRST_LINES = 8
@@ -17,7 +17,7 @@ MACHINE = re.compile(r"\b(terminal|pi|laptop|robot)\b", re.IGNORECASE)
 PLACE = re.compile(r"folder|~|directory", re.IGNORECASE)
 
 
-def broken(lesson: Lesson) -> Iterator[Broken]:
+def broken(lesson: Lesson) -> Iterator[BrokenRule]:
     """Every rule on code that `lesson` breaks."""
     cells = [cell for cell in lesson.cells if cell.is_code]
     for cell in cells:
@@ -26,7 +26,7 @@ def broken(lesson: Lesson) -> Iterator[Broken]:
     yield from _commands(lesson)
 
 
-def _size(lesson: Lesson, cell: Cell, most: int) -> Iterator[Broken]:
+def _size(lesson: Lesson, cell: LessonCell, most: int) -> Iterator[BrokenRule]:
     lines = cell.text.splitlines()
     if not cell.text.strip():
         yield lesson.broken_at(cell, 1, "The cell is empty.", "Delete it.")
@@ -39,7 +39,7 @@ def _size(lesson: Lesson, cell: Cell, most: int) -> Iterator[Broken]:
             yield lesson.broken_at(cell, number, what, f"At most {MOST_COLUMNS}: break it.")
 
 
-def _sleeps(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
+def _sleeps(lesson: Lesson, cell: LessonCell) -> Iterator[BrokenRule]:
     tree = parsed(cell.text)
     for call in _own_calls(tree) if tree else ():
         name = ast.unparse(call.func)
@@ -58,7 +58,7 @@ def _own_calls(node: ast.AST) -> Iterator[ast.Call]:
         yield from _own_calls(child)
 
 
-def _commands(lesson: Lesson) -> Iterator[Broken]:
+def _commands(lesson: Lesson) -> Iterator[BrokenRule]:
     before = None
     for part in lesson.parts:
         if part.block.kind == "code" and part.block.language in SHELLS:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Sequence
 
-from roslings_learn.lessons.rules.lesson_file import Broken, Cell, Lesson
+from roslings_learn.lessons.rules.lesson_file import BrokenRule, Lesson, LessonCell
 from roslings_learn.lessons.rules.prose import IMAGE
 from roslings_learn.lessons.rules.sections import concepts
 
@@ -13,7 +13,7 @@ STEPS = ("predict", "run", "explain", "change")
 CODE_STEPS = ("run", "change")
 
 
-def broken(lesson: Lesson) -> Iterator[Broken]:
+def broken(lesson: Lesson) -> Iterator[BrokenRule]:
     """Every rule on concepts that `lesson` breaks."""
     for title in concepts(lesson):
         yield from _concept(lesson, title, lesson.sections[title])
@@ -23,7 +23,7 @@ def broken(lesson: Lesson) -> Iterator[Broken]:
             yield from _change(lesson, cell)
 
 
-def _concept(lesson: Lesson, title: str, cells: Sequence[Cell]) -> Iterator[Broken]:
+def _concept(lesson: Lesson, title: str, cells: Sequence[LessonCell]) -> Iterator[BrokenRule]:
     if not any(IMAGE.search(cell.text) for cell in cells if not cell.is_code):
         mend = "Add ![what it shows](pictures/NAME.svg) before the cell that asks to predict."
         yield lesson.broken_at(cells[0], 1, f"The concept '{title}' has no picture.", mend)
@@ -35,7 +35,7 @@ def _concept(lesson: Lesson, title: str, cells: Sequence[Cell]) -> Iterator[Brok
         yield lesson.broken_at(cells[0], 1, what, mend)
 
 
-def _step(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
+def _step(lesson: Lesson, cell: LessonCell) -> Iterator[BrokenRule]:
     for step in STEPS:
         if step in cell.tags and cell.is_code != (step in CODE_STEPS):
             kind = "code" if step in CODE_STEPS else "Markdown"
@@ -43,7 +43,7 @@ def _step(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
             yield lesson.broken_at(cell, 1, f"The tag '{step}' is for {kind}.", mend)
 
 
-def _change(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
+def _change(lesson: Lesson, cell: LessonCell) -> Iterator[BrokenRule]:
     if "raises-exception" not in cell.tags:
         mend = "Add the tag raises-exception: it fails before the edit."
         yield lesson.broken_at(cell, 1, "Not every run of this cell ends well.", mend)
@@ -54,7 +54,7 @@ def _change(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
     yield from _answer(lesson, cell)
 
 
-def _asserts(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
+def _asserts(lesson: Lesson, cell: LessonCell) -> Iterator[BrokenRule]:
     tree = parsed(cell.text)
     if tree is None:
         return
@@ -67,7 +67,7 @@ def _asserts(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
         yield lesson.broken_at(cell, node.lineno, "The assert says nothing.", mend)
 
 
-def _answer(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
+def _answer(lesson: Lesson, cell: LessonCell) -> Iterator[BrokenRule]:
     if not cell.answer:
         mend = 'Add metadata: "roslings": {"answer": [["old text", "new text"]]}.'
         yield lesson.broken_at(cell, 1, "The right edit is not known.", mend)

@@ -7,7 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
-from roslings_learn.lessons.rules.lesson_file import Broken, Cell, Lesson
+from roslings_learn.lessons.rules.lesson_file import BrokenRule, Lesson, LessonCell
 
 KERNEL = "roslings"
 COMPARED = "nbval-check-output"
@@ -21,7 +21,7 @@ MACHINE = re.compile(
 )
 
 
-def broken(lesson: Lesson) -> Iterator[Broken]:
+def broken(lesson: Lesson) -> Iterator[BrokenRule]:
     """Every rule on the file that `lesson` breaks."""
     yield from _of_notebook(lesson)
     yield from _ids(lesson)
@@ -30,7 +30,7 @@ def broken(lesson: Lesson) -> Iterator[Broken]:
         yield from _of_cell(lesson, cell)
 
 
-def _of_notebook(lesson: Lesson) -> Iterator[Broken]:
+def _of_notebook(lesson: Lesson) -> Iterator[BrokenRule]:
     version = lesson.raw.get("nbformat"), lesson.raw.get("nbformat_minor")
     if version != (4, 5):
         yield lesson.broken(f"The format is {version}, not 4.5.", "Convert it by jupytext again.")
@@ -44,7 +44,7 @@ def _of_notebook(lesson: Lesson) -> Iterator[Broken]:
         yield lesson.broken("language_info says too much.", "Keep its 'name' alone: python.")
 
 
-def _ids(lesson: Lesson) -> Iterator[Broken]:
+def _ids(lesson: Lesson) -> Iterator[BrokenRule]:
     times = Counter(cell.id for cell in lesson.cells)
     for cell in lesson.cells:
         if not ID.match(cell.id) or re.fullmatch(r"[0-9a-f]{8}", cell.id):
@@ -54,14 +54,14 @@ def _ids(lesson: Lesson) -> Iterator[Broken]:
             yield lesson.broken_at(cell, 1, "Another cell has this id.", "Choose another one.")
 
 
-def _promises(lesson: Lesson) -> Iterator[Broken]:
+def _promises(lesson: Lesson) -> Iterator[BrokenRule]:
     count = sum(COMPARED in cell.tags for cell in lesson.cells)
     if count < LEAST_COMPARED:
         what = f"The outputs of {count} cells are compared, fewer than {LEAST_COMPARED}."
         yield lesson.broken(what, f"Tag cells that always print the same: {COMPARED}.")
 
 
-def _outputs(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
+def _outputs(lesson: Lesson, cell: LessonCell) -> Iterator[BrokenRule]:
     """Saved ones belong to compared cells alone: the others differ from run to run."""
     outputs = cell.raw.get("outputs") or []
     has_run = cell.raw.get("execution_count") is not None
@@ -78,7 +78,7 @@ def _outputs(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
         yield lesson.broken_at(cell, 1, what, "Compare what another cell prints.")
 
 
-def _of_cell(lesson: Lesson, cell: Cell) -> Iterator[Broken]:
+def _of_cell(lesson: Lesson, cell: LessonCell) -> Iterator[BrokenRule]:
     yield from _outputs(lesson, cell)
     strange = sorted(set(cell.raw.get("metadata", {})) - {"tags", "roslings"})
     if strange:

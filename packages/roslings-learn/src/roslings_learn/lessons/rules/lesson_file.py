@@ -21,7 +21,7 @@ class NoLesson(Exception):
 
 
 @dataclass(frozen=True, order=True)
-class Broken:
+class BrokenRule:
     """A rule that a lesson breaks: where, what, and how to mend it."""
 
     path: Path
@@ -53,7 +53,7 @@ class Heading:
 
 
 @dataclass(frozen=True)
-class Cell:
+class LessonCell:
     """One cell."""
 
     place: int
@@ -90,10 +90,10 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Part:
+class SectionBlock:
     """A block of prose, and the section that it stands in."""
 
-    cell: Cell
+    cell: LessonCell
     block: Block
     section: str
     """The text of its H2; empty before the first."""
@@ -107,27 +107,27 @@ class Lesson:
 
     path: Path
     day: Day
-    cells: tuple[Cell, ...]
+    cells: tuple[LessonCell, ...]
     raw: dict[str, Any] = field(repr=False)
 
     @cached_property
-    def parts(self) -> tuple[Part, ...]:
+    def parts(self) -> tuple[SectionBlock, ...]:
         """Every block of its Markdown cells, in order."""
         return tuple(self._parts())
 
-    def _parts(self) -> Iterator[Part]:
+    def _parts(self) -> Iterator[SectionBlock]:
         section = under = ""
         for cell in self.cells:
             for block in cell.blocks:
                 if block.kind == "heading":
                     under = block.text if block.level >= 2 else ""
                     section = block.text if block.level == 2 else section
-                yield Part(cell, block, section, under)
+                yield SectionBlock(cell, block, section, under)
 
     @cached_property
-    def sections(self) -> dict[str, tuple[Cell, ...]]:
+    def sections(self) -> dict[str, tuple[LessonCell, ...]]:
         """H2 to its cells, in order; a cell counts for the last H2 in it or before it."""
-        found: dict[str, list[Cell]] = {"": []}
+        found: dict[str, list[LessonCell]] = {"": []}
         now = ""
         for cell in self.cells:
             titles = [each.text for each in cell.headings if each.level == 2]
@@ -137,7 +137,7 @@ class Lesson:
         return {title: tuple(cells) for title, cells in found.items()}
 
     @property
-    def headings(self) -> list[tuple[Cell, Heading]]:
+    def headings(self) -> list[tuple[LessonCell, Heading]]:
         """Every heading with its cell."""
         return [(cell, each) for cell in self.cells for each in cell.headings]
 
@@ -146,13 +146,13 @@ class Lesson:
         """What a link may point to."""
         return frozenset(each.slug for _, each in self.headings)
 
-    def broken(self, what: str, mend: str) -> Broken:
+    def broken(self, what: str, mend: str) -> BrokenRule:
         """A rule that the lesson as a whole breaks."""
-        return Broken(self.path, -1, "", 0, what, mend)
+        return BrokenRule(self.path, -1, "", 0, what, mend)
 
-    def broken_at(self, cell: Cell, line: int, what: str, mend: str) -> Broken:
+    def broken_at(self, cell: LessonCell, line: int, what: str, mend: str) -> BrokenRule:
         """A rule broken at a line of a cell."""
-        return Broken(
+        return BrokenRule(
             self.path, cell.place, cell.id or f"number {cell.place + 1}", line, what, mend
         )
 
@@ -167,11 +167,11 @@ def read_lesson(path: Path, day: Day) -> Lesson:
     return Lesson(path, day, cells, raw)
 
 
-def _cell(place: int, raw: dict[str, Any]) -> Cell:
+def _cell(place: int, raw: dict[str, Any]) -> LessonCell:
     metadata = raw.get("metadata", {})
     answer = metadata.get("roslings", {}).get("answer", [])
     source = raw["source"]
-    return Cell(
+    return LessonCell(
         place,
         raw.get("id", ""),
         raw["cell_type"],

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from roslings_learn.lessons.rules.alternatives import untold
-from roslings_learn.lessons.rules.lesson_file import Broken, Lesson, Part
+from roslings_learn.lessons.rules.lesson_file import BrokenRule, Lesson, SectionBlock
 from roslings_learn.lessons.rules.prose import IMAGE, LINK
 
 SHORTEST_ALT, WIDTH, SMALLEST_PX = 10, 720.0, 14.0
@@ -16,7 +16,7 @@ PICTURES = (".svg", ".png")
 FOREIGN = re.compile(r"url\(\s*['\"]?https?:|@import|(?:href|src)\s*=\s*['\"]https?:")
 
 
-def broken(lesson: Lesson) -> Iterator[Broken]:
+def broken(lesson: Lesson) -> Iterator[BrokenRule]:
     """Every rule on pictures and links that `lesson` breaks."""
     for part in lesson.parts:
         if part.block.kind == "code":
@@ -27,7 +27,7 @@ def broken(lesson: Lesson) -> Iterator[Broken]:
             yield from _link(lesson, part, target)
 
 
-def _picture(lesson: Lesson, part: Part, alt: str, target: str) -> Iterator[Broken]:
+def _picture(lesson: Lesson, part: SectionBlock, alt: str, target: str) -> Iterator[BrokenRule]:
     line = part.block.line
     if len(alt.strip()) < SHORTEST_ALT:
         mend = "Say in a sentence what the picture shows."
@@ -70,7 +70,7 @@ def faults_of_svg(file: Path) -> Iterator[str]:
         yield f"a text is {min(sizes):g} px high, and {SMALLEST_PX:g} is the least."
 
 
-def _link(lesson: Lesson, part: Part, target: str) -> Iterator[Broken]:
+def _link(lesson: Lesson, part: SectionBlock, target: str) -> Iterator[BrokenRule]:
     if target.startswith(("http://", "https://", "mailto:", "#word-")):
         return
     file, _, anchor = target.partition("#")

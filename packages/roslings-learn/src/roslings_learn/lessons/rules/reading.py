@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from roslings_learn.lessons.rules.lesson_file import Broken, Lesson, Part
+from roslings_learn.lessons.rules.lesson_file import BrokenRule, Lesson, SectionBlock
 from roslings_learn.lessons.rules.prose import plain, sentences, words
 
 MOST_ON_AVERAGE, MOST_WORDS, MOST_IN_A_CELL = 14.0, 25, 120
 
 
-def broken(lesson: Lesson) -> Iterator[Broken]:
+def broken(lesson: Lesson) -> Iterator[BrokenRule]:
     """Every rule on reading that `lesson` breaks."""
     lengths = []
     for part in _prose(lesson):
@@ -40,16 +40,16 @@ def average_sentence(lesson: Lesson) -> float:
     return sum(lengths) / len(lengths) if lengths else 0.0
 
 
-def _prose(lesson: Lesson) -> list[Part]:
+def _prose(lesson: Lesson) -> list[SectionBlock]:
     return [part for part in lesson.parts if part.block.kind in ("paragraph", "item")]
 
 
-def _is_sentence(part: Part, sentence: str) -> bool:
+def _is_sentence(part: SectionBlock, sentence: str) -> bool:
     """An item of a list may be a name or a title."""
     return part.block.kind == "paragraph" or sentence.endswith((".", "?", "!"))
 
 
-def _long_cells(lesson: Lesson) -> Iterator[Broken]:
+def _long_cells(lesson: Lesson) -> Iterator[BrokenRule]:
     for cell in lesson.cells:
         total = sum(words(plain(b.text)) for b in cell.blocks if b.kind == "paragraph")
         if total > MOST_IN_A_CELL:

@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 
-from roslings_learn.lessons.rules.lesson_file import Broken, Cell, Lesson
+from roslings_learn.lessons.rules.lesson_file import BrokenRule, Lesson, LessonCell
 from roslings_learn.lessons.rules.prose import LINK
 
 WORDS = "Words of the day"
@@ -31,7 +31,7 @@ def concepts(lesson: Lesson) -> list[str]:
     return [title for title in lesson.sections if title and title not in (*BEFORE, *AFTER)]
 
 
-def broken(lesson: Lesson) -> Iterator[Broken]:
+def broken(lesson: Lesson) -> Iterator[BrokenRule]:
     """Every rule on sections that `lesson` breaks."""
     yield from _title(lesson)
     yield from _order(lesson)
@@ -44,7 +44,7 @@ def broken(lesson: Lesson) -> Iterator[Broken]:
     yield from _length(lesson)
 
 
-def _title(lesson: Lesson) -> Iterator[Broken]:
+def _title(lesson: Lesson) -> Iterator[BrokenRule]:
     wanted = f"# {lesson.day.name}"
     first = lesson.cells[0] if lesson.cells else None
     if first is None or first.text.partition("\n")[0].strip() != wanted:
@@ -59,7 +59,7 @@ def _title(lesson: Lesson) -> Iterator[Broken]:
             yield lesson.broken(what, f"Add a line '- **{label}:** ...' below the title.")
 
 
-def _order(lesson: Lesson) -> Iterator[Broken]:
+def _order(lesson: Lesson) -> Iterator[BrokenRule]:
     there = [heading.text for _, heading in lesson.headings if heading.level == 2]
     named = [title for title in there if title in (*BEFORE, *AFTER)]
     for title in (*BEFORE, *AFTER):
@@ -77,7 +77,7 @@ def _order(lesson: Lesson) -> Iterator[Broken]:
             yield lesson.broken(f"'{title}' is no section of its place.", mend)
 
 
-def _first_screen(lesson: Lesson) -> Iterator[Broken]:
+def _first_screen(lesson: Lesson) -> Iterator[BrokenRule]:
     before = []
     for cell in lesson.cells:
         if cell.is_code:
@@ -91,7 +91,7 @@ def _first_screen(lesson: Lesson) -> Iterator[Broken]:
         yield lesson.broken(what, mend)
 
 
-def _twins(lesson: Lesson) -> Iterator[Broken]:
+def _twins(lesson: Lesson) -> Iterator[BrokenRule]:
     times = Counter(heading.slug for _, heading in lesson.headings)
     for cell, heading in lesson.headings:
         if times[heading.slug] > 1:
@@ -99,7 +99,7 @@ def _twins(lesson: Lesson) -> Iterator[Broken]:
             yield lesson.broken_at(cell, heading.line, what, "Word one of them otherwise.")
 
 
-def _words_of_the_day(lesson: Lesson) -> Iterator[Broken]:
+def _words_of_the_day(lesson: Lesson) -> Iterator[BrokenRule]:
     items = [p for p in lesson.parts if p.section == WORDS and p.block.kind == "item"]
     if WORDS in lesson.sections and not FEWEST_WORDS <= len(items) <= MOST_WORDS:
         mend = f"List {FEWEST_WORDS} to {MOST_WORDS}, one item each."
@@ -110,14 +110,14 @@ def _words_of_the_day(lesson: Lesson) -> Iterator[Broken]:
             yield lesson.broken_at(part.cell, part.block.line, "No word is linked here.", mend)
 
 
-def _goes_wrong(lesson: Lesson) -> Iterator[Broken]:
+def _goes_wrong(lesson: Lesson) -> Iterator[BrokenRule]:
     cells = [cell for cell in lesson.sections.get(GOES_WRONG, ()) if cell.is_code]
     if GOES_WRONG in lesson.sections and len(cells) < 4:
         mend = "Show two or three mistakes: a cell with the mistake, then a cell that is mended."
         yield lesson.broken(f"'{GOES_WRONG}' has {len(cells)} code cells.", mend)
 
 
-def _ends(lesson: Lesson) -> Iterator[Broken]:
+def _ends(lesson: Lesson) -> Iterator[BrokenRule]:
     if not TIMED.search(_text(lesson, LAB)) and LAB in lesson.sections:
         yield lesson.broken("The steps of the lab tell no times.", "Say for each: (10 min).")
     if "check(" not in _text(lesson, CHECK) and CHECK in lesson.sections:
@@ -129,7 +129,7 @@ def _ends(lesson: Lesson) -> Iterator[Broken]:
         yield lesson.broken("The last cell is not the quiz.", f'Add: quiz("{lesson.day.id}")')
 
 
-def _length(lesson: Lesson) -> Iterator[Broken]:
+def _length(lesson: Lesson) -> Iterator[BrokenRule]:
     count = sum(len(cell.text.split()) for cell in lesson.cells if not cell.is_code)
     if count > LONGEST_LESSON:
         mend = f"At most {LONGEST_LESSON}: what the lab does not need stands on a page beside it."
@@ -143,12 +143,12 @@ def _text(lesson: Lesson, title: str) -> str:
     return "\n".join(cell.text for cell in lesson.sections.get(title, ()))
 
 
-def _no_video(lesson: Lesson) -> Iterator[Broken]:
+def _no_video(lesson: Lesson) -> Iterator[BrokenRule]:
     for cell in lesson.cells:
         if found := EMBEDDED.search(cell.text):
             line = _line_of(cell, found.start())
             yield lesson.broken_at(cell, line, "Something is embedded.", "Give title and link.")
 
 
-def _line_of(cell: Cell, position: int) -> int:
+def _line_of(cell: LessonCell, position: int) -> int:
     return cell.text[:position].count("\n") + 1

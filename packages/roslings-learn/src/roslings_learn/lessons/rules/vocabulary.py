@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from roslings_learn.lessons.glossary import Glossary, Term
-from roslings_learn.lessons.rules.lesson_file import Broken, Lesson, Part
+from roslings_learn.lessons.rules.lesson_file import BrokenRule, Lesson, SectionBlock
 from roslings_learn.lessons.rules.prose import CODE, IMAGE, LINK
 from roslings_learn.lessons.rules.sections import FREE, WORDS
 
@@ -21,13 +21,13 @@ LABEL = re.compile(r"^\*\*[^*]+\*\*:?")
 class Use:
     """One place where a lesson uses a word."""
 
-    part: Part
+    part: SectionBlock
     term: Term
     linked: bool
     text: str
 
 
-def broken(lesson: Lesson, glossary: Glossary) -> Iterator[Broken]:
+def broken(lesson: Lesson, glossary: Glossary) -> Iterator[BrokenRule]:
     """Every rule on words that `lesson` breaks."""
     yield from _links(lesson, glossary)
     uses = list(uses_of(lesson, glossary))
@@ -44,7 +44,7 @@ def uses_of(lesson: Lesson, glossary: Glossary) -> Iterator[Use]:
             yield from _in_part(part, glossary, spelt)
 
 
-def _in_part(part: Part, glossary: Glossary, spelt: Spelling) -> Iterator[Use]:
+def _in_part(part: SectionBlock, glossary: Glossary, spelt: Spelling) -> Iterator[Use]:
     text = part.block.text if part.section else LABEL.sub("", part.block.text)
     rest, found = _without_code(text), list[tuple[int, Use]]()
     for link in LINK.finditer(rest):
@@ -86,7 +86,7 @@ class Spelling:
             yield found.start(), self._meant[found[0]], found[0]
 
 
-def _links(lesson: Lesson, glossary: Glossary) -> Iterator[Broken]:
+def _links(lesson: Lesson, glossary: Glossary) -> Iterator[BrokenRule]:
     for part in lesson.parts:
         for _, target in LINK.findall(part.block.text):
             if not target.startswith(PREFIX):
@@ -100,7 +100,7 @@ def _links(lesson: Lesson, glossary: Glossary) -> Iterator[Broken]:
                 yield lesson.broken_at(part.cell, part.block.line, what, mend)
 
 
-def _too_early(lesson: Lesson, uses: list[Use]) -> Iterator[Broken]:
+def _too_early(lesson: Lesson, uses: list[Use]) -> Iterator[BrokenRule]:
     for use in uses:
         day = use.term.day
         if day is not None and day <= lesson.day.number:
@@ -120,7 +120,7 @@ def _linked_before(use: Use, uses: list[Use]) -> bool:
     )
 
 
-def _early(lesson: Lesson, use: Use) -> Broken:
+def _early(lesson: Lesson, use: Use) -> BrokenRule:
     when = f"a word of day {use.term.day}" if use.term.day else "a word of no day"
     free = use.part.section in FREE
     mend = f"Link it: [{use.text}]({PREFIX}{use.term.id})." if free else _mend_early(use)
@@ -133,7 +133,7 @@ def _mend_early(use: Use) -> str:
     )
 
 
-def _not_linked(lesson: Lesson, uses: list[Use]) -> Iterator[Broken]:
+def _not_linked(lesson: Lesson, uses: list[Use]) -> Iterator[BrokenRule]:
     seen = set[str]()
     for use in uses:
         new = use.term.day == lesson.day.number and use.term.id not in seen
@@ -146,7 +146,7 @@ def _not_linked(lesson: Lesson, uses: list[Use]) -> Iterator[Broken]:
             yield lesson.broken_at(use.part.cell, use.part.block.line, what, mend)
 
 
-def _too_many(lesson: Lesson, uses: list[Use]) -> Iterator[Broken]:
+def _too_many(lesson: Lesson, uses: list[Use]) -> Iterator[BrokenRule]:
     seen = set[str]()
     new: dict[str, list[Use]] = defaultdict(list)
     for use in uses:

@@ -8,7 +8,13 @@ from dataclasses import dataclass, replace
 from statistics import median
 
 from roslings_rover.models.drives.chance import Chance
-from roslings_rover.models.drives.recording import NS, DrivePlan, Said, TopicPlan, of_topic
+from roslings_rover.models.drives.recording import (
+    NS,
+    DrivePlan,
+    RecordedMessage,
+    TopicPlan,
+    of_topic,
+)
 from roslings_rover.models.drives.sheet import (
     BATTERY,
     BUMPER,
@@ -36,12 +42,12 @@ of a degree, kilolux."""
 LARGEST = "the largest value of the topic, without its sign"
 
 Plant = Callable[[DrivePlan, TopicPlan, Chance], DrivePlan]
-Measure = Callable[[Sequence[Said], TopicPlan, DrivePlan], float]
+Measure = Callable[[Sequence[RecordedMessage], TopicPlan, DrivePlan], float]
 """From all messages, the topic and the drive to the number that proves the fault."""
 
 
 @dataclass(frozen=True)
-class Fault:
+class RoverFault:
     """One way in which a rover can be sick."""
 
     name: str
@@ -119,36 +125,36 @@ def _default(drive: DrivePlan, topic: TopicPlan, chance: Chance) -> DrivePlan:
 # --- what proves it ----------------------------------------------------------------------------
 
 
-def _largest(said: Sequence[Said], topic: TopicPlan, drive: DrivePlan) -> float:
+def _largest(said: Sequence[RecordedMessage], topic: TopicPlan, drive: DrivePlan) -> float:
     return max(abs(each.values[0]) for each in of_topic(said, topic.name))
 
 
-def _count(said: Sequence[Said], topic: TopicPlan, drive: DrivePlan) -> float:
+def _count(said: Sequence[RecordedMessage], topic: TopicPlan, drive: DrivePlan) -> float:
     return len(of_topic(said, topic.name))
 
 
-def _age_s(said: Sequence[Said], topic: TopicPlan, drive: DrivePlan) -> float:
+def _age_s(said: Sequence[RecordedMessage], topic: TopicPlan, drive: DrivePlan) -> float:
     last = of_topic(said, topic.name)[-1]
     return (last.time_ns - last.stamp_ns) / NS
 
 
-def _lived_s(said: Sequence[Said], topic: TopicPlan, drive: DrivePlan) -> float:
+def _lived_s(said: Sequence[RecordedMessage], topic: TopicPlan, drive: DrivePlan) -> float:
     return (of_topic(said, topic.name)[-1].time_ns - said[0].time_ns) / NS
 
 
-def _wrong_frames(said: Sequence[Said], topic: TopicPlan, drive: DrivePlan) -> float:
+def _wrong_frames(said: Sequence[RecordedMessage], topic: TopicPlan, drive: DrivePlan) -> float:
     return sum(each.frame != topic.sheet.frame for each in of_topic(said, topic.name))
 
 
-def _slower(said: Sequence[Said], topic: TopicPlan, drive: DrivePlan) -> float:
+def _slower(said: Sequence[RecordedMessage], topic: TopicPlan, drive: DrivePlan) -> float:
     return 100 * (1 - min(drive.left, drive.right))
 
 
-def _ahead_s(said: Sequence[Said], topic: TopicPlan, drive: DrivePlan) -> float:
+def _ahead_s(said: Sequence[RecordedMessage], topic: TopicPlan, drive: DrivePlan) -> float:
     return median((each.stamp_ns - each.time_ns) / NS for each in of_topic(said, topic.name))
 
 
-def _rate_hz(said: Sequence[Said], topic: TopicPlan, drive: DrivePlan) -> float:
+def _rate_hz(said: Sequence[RecordedMessage], topic: TopicPlan, drive: DrivePlan) -> float:
     times = [each.time_ns for each in of_topic(said, topic.name)]
     return (len(times) - 1) * NS / (times[-1] - times[0])
 
@@ -156,7 +162,7 @@ def _rate_hz(said: Sequence[Said], topic: TopicPlan, drive: DrivePlan) -> float:
 FAULTS = {
     fault.name: fault
     for fault in (
-        Fault(
+        RoverFault(
             "wrong_unit",
             "the value has another unit than in the table above",
             LARGEST,
@@ -164,7 +170,7 @@ FAULTS = {
             _unit,
             _largest,
         ),
-        Fault(
+        RoverFault(
             "qos_mismatch",
             "the quality of service that is offered is not enough for who hears it",
             "how many messages were never heard",
@@ -172,7 +178,7 @@ FAULTS = {
             _best_effort,
             _count,
         ),
-        Fault(
+        RoverFault(
             "stale_stamps",
             "the stamp stands still while new messages come",
             "how old the last message was, in seconds",
@@ -180,7 +186,7 @@ FAULTS = {
             _stale,
             _age_s,
         ),
-        Fault(
+        RoverFault(
             "dead_node",
             "a node died, and its topic ends",
             "the seconds from the start of the bag to its last message",
@@ -188,7 +194,7 @@ FAULTS = {
             _dead,
             _lived_s,
         ),
-        Fault(
+        RoverFault(
             "wrong_frame",
             "from some message on, the `frame_id` is another one",
             "how many messages have the wrong one",
@@ -196,7 +202,7 @@ FAULTS = {
             _frame,
             _wrong_frames,
         ),
-        Fault(
+        RoverFault(
             "drifting_wheel",
             "on a straight way one wheel turns slower than the other",
             "by how many per cent of the faster wheel",
@@ -204,7 +210,7 @@ FAULTS = {
             _drift,
             _slower,
         ),
-        Fault(
+        RoverFault(
             "wrong_clock",
             "all stamps are off by the same time",
             "by how many seconds they are ahead; with a minus: behind",
@@ -213,7 +219,7 @@ FAULTS = {
             _ahead_s,
             signed=True,
         ),
-        Fault(
+        RoverFault(
             "wrong_namespace",
             "the topic has a namespace that nobody listens to",
             "how many messages went there",
@@ -221,7 +227,7 @@ FAULTS = {
             _namespace,
             _count,
         ),
-        Fault(
+        RoverFault(
             "flood",
             "messages come far too often",
             "how many come in a second",
@@ -229,7 +235,7 @@ FAULTS = {
             _flood,
             _rate_hz,
         ),
-        Fault(
+        RoverFault(
             "lost_parameter",
             "the parameter never arrived, and the node took its default",
             LARGEST,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from statistics import median
 
-from roslings_rover.models.drives.recording import NS, Said, of_topic
+from roslings_rover.models.drives.recording import NS, RecordedMessage, of_topic
 
 SHORTEST_PAUSE = 1.5
 """In usual periods: what is shorter is no pause, whatever anybody calls a gap."""
@@ -32,7 +32,7 @@ def usual_period_s(times_ns: Sequence[int]) -> float | None:
     return median(between) / NS if between else None
 
 
-def pauses_of(topic: str, said: Sequence[Said]) -> Iterable[Pause]:
+def pauses_of(topic: str, said: Sequence[RecordedMessage]) -> Iterable[Pause]:
     """The pauses of one topic."""
     times = [each.time_ns for each in of_topic(said, topic)]
     usual_s = usual_period_s(times)
@@ -43,17 +43,17 @@ def pauses_of(topic: str, said: Sequence[Said]) -> Iterable[Pause]:
             yield Pause(topic, seconds, start_s, seconds / usual_s)
 
 
-def duration_s(said: Sequence[Said]) -> float:
+def duration_s(said: Sequence[RecordedMessage]) -> float:
     """From the first message to the last one."""
     return (said[-1].time_ns - said[0].time_ns) / NS
 
 
-def distance_m(odometry: Sequence[Said]) -> float:
+def distance_m(odometry: Sequence[RecordedMessage]) -> float:
     """The length of the way through all positions."""
     steps = pairwise(odometry)
     return sum(math.hypot(b.values[X] - a.values[X], b.values[Y] - a.values[Y]) for a, b in steps)
 
 
-def top_speed_m_s(odometry: Sequence[Said]) -> float:
+def top_speed_m_s(odometry: Sequence[RecordedMessage]) -> float:
     """The largest speed, forward or backward."""
     return max(abs(each.values[SPEED]) for each in odometry)

@@ -33,7 +33,7 @@ WHEEL_NOISE = 0.004
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class RecordedMessage:
     """One message of a bag. The first of `values` is the value of its topic."""
 
     time_ns: int
@@ -105,14 +105,14 @@ class DrivePlan:
         return self.pieces[-1]
 
 
-def recorded(plan: DrivePlan) -> list[Said]:
+def recorded(plan: DrivePlan) -> list[RecordedMessage]:
     """All messages of the drive, in the order in which they were recorded."""
     surroundings = _Surroundings(plan)
     said = [each for topic in plan.topics for each in _said(plan, topic, surroundings)]
     return sorted(said, key=lambda each: (each.time_ns, each.topic))
 
 
-def _said(plan: DrivePlan, topic: TopicPlan, around: _Surroundings) -> Iterator[Said]:
+def _said(plan: DrivePlan, topic: TopicPlan, around: _Surroundings) -> Iterator[RecordedMessage]:
     chance = Chance(f"{plan.seed} {topic.sheet.name}")
     for time_s in _times(plan, topic, chance):
         values = around.values(topic.sheet, time_s, chance)
@@ -120,7 +120,7 @@ def _said(plan: DrivePlan, topic: TopicPlan, around: _Surroundings) -> Iterator[
         frame = topic.other_frame if time_s >= topic.other_frame_from_s else topic.sheet.frame
         stamp_s = min(time_s, topic.still_from_s) + topic.ahead_s
         delay_s = chance.between(LEAST_DELAY_S, MOST_DELAY_S)
-        yield Said(
+        yield RecordedMessage(
             plan.start_ns + round((time_s + delay_s) * NS),
             topic.name,
             plan.start_ns + round(stamp_s * NS),
@@ -233,6 +233,6 @@ def _wave(middle: float, swing: float, period_s: float, time_s: float) -> float:
     return middle + swing * math.sin(2 * math.pi * time_s / period_s)
 
 
-def of_topic(said: Sequence[Said], name: str) -> list[Said]:
+def of_topic(said: Sequence[RecordedMessage], name: str) -> list[RecordedMessage]:
     """The messages of one topic."""
     return [each for each in said if each.topic == name]

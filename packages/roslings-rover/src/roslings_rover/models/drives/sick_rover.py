@@ -10,8 +10,15 @@ from itertools import permutations
 
 from roslings_rover.models.differential_drive import Motion, Pose
 from roslings_rover.models.drives.chance import Chance
-from roslings_rover.models.drives.faults import FAULTS, Fault
-from roslings_rover.models.drives.recording import NS, DrivePlan, Piece, Said, TopicPlan, recorded
+from roslings_rover.models.drives.faults import FAULTS, RoverFault
+from roslings_rover.models.drives.recording import (
+    NS,
+    DrivePlan,
+    Piece,
+    RecordedMessage,
+    TopicPlan,
+    recorded,
+)
 from roslings_rover.models.drives.sheet import MAX_SPEED_M_S, SHEET, TopicSheet
 
 PLANTED = 5
@@ -21,7 +28,7 @@ DAYS, DAY_S = 28, 86_400
 SHORTEST_NAME = 2
 
 
-class NoName(ValueError):
+class NotARoverName(ValueError):
     """A text that no rover can be made from."""
 
 
@@ -82,10 +89,10 @@ class SickRover:
     """A rover with planted faults, and all that was recorded of it."""
 
     plan: DrivePlan
-    faults: tuple[tuple[Fault, TopicSheet], ...]
+    faults: tuple[tuple[RoverFault, TopicSheet], ...]
 
     @cached_property
-    def said(self) -> Sequence[Said]:
+    def said(self) -> Sequence[RecordedMessage]:
         """The messages of its bag."""
         return recorded(self.plan)
 
@@ -103,10 +110,10 @@ class SickRover:
 
 @lru_cache(maxsize=4)
 def sick_rover(name: str, count: int = PLANTED) -> SickRover:
-    """The rover of a name, however that is written. Raises NoName."""
+    """The rover of a name, however that is written. Raises NotARoverName."""
     words = words_of(name)
     if len("".join(words)) < SHORTEST_NAME:
-        raise NoName(name)
+        raise NotARoverName(name)
     chance = Chance(f"sick rover 1: {' '.join(words)}")
     faults = _chosen(chance, count)
     plan = _healthy(chance)
@@ -116,10 +123,10 @@ def sick_rover(name: str, count: int = PLANTED) -> SickRover:
     return SickRover(plan, faults)
 
 
-def _chosen(chance: Chance, count: int) -> tuple[tuple[Fault, TopicSheet], ...]:
+def _chosen(chance: Chance, count: int) -> tuple[tuple[RoverFault, TopicSheet], ...]:
     """So many faults, each with a topic of its own: who has the least choice chooses first."""
     some = chance.shuffled(tuple(FAULTS.values()))[:count]
-    found: list[tuple[Fault, TopicSheet]] = []
+    found: list[tuple[RoverFault, TopicSheet]] = []
     for fault in sorted(some, key=lambda each: len(each.topics)):
         taken = {sheet for _, sheet in found}
         found.append((fault, chance.pick([each for each in fault.topics if each not in taken])))

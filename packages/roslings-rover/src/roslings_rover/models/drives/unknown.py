@@ -8,7 +8,14 @@ from dataclasses import dataclass, replace
 
 from roslings_rover.models.differential_drive import Motion, Pose
 from roslings_rover.models.drives.chance import Chance
-from roslings_rover.models.drives.recording import NS, DrivePlan, Piece, Said, TopicPlan, recorded
+from roslings_rover.models.drives.recording import (
+    NS,
+    DrivePlan,
+    Piece,
+    RecordedMessage,
+    TopicPlan,
+    recorded,
+)
 from roslings_rover.models.drives.sheet import BATTERY, IMU, LIGHT, ODOM, RANGE, SHEET, TopicSheet
 from roslings_rover.models.drives.sick_rover import START_S
 
@@ -31,20 +38,20 @@ class Held:
 
 
 @dataclass(frozen=True)
-class Drive:
+class RecordedDrive:
     """All that is written into a bag."""
 
     topics: tuple[Held, ...]
-    said: tuple[Said, ...]
+    said: tuple[RecordedMessage, ...]
 
 
-def as_drive(plan: DrivePlan, said: tuple[Said, ...]) -> Drive:
+def as_drive(plan: DrivePlan, said: tuple[RecordedMessage, ...]) -> RecordedDrive:
     """A drive with the topics of its plan."""
     topics = (Held(each.name, each.sheet.type, each.reliable) for each in plan.topics)
-    return Drive(tuple(topics), said)
+    return RecordedDrive(tuple(topics), said)
 
 
-def unknown_drive(seed: int, odometry: str, gap_periods: float) -> Drive:
+def unknown_drive(seed: int, odometry: str, gap_periods: float) -> RecordedDrive:
     """A drive with gaps, one of them only just long enough, and with a pause that is none.
 
     Its stamps are some tenths of a second old: who takes them for the time of the bag is off.
@@ -59,7 +66,7 @@ def unknown_drive(seed: int, odometry: str, gap_periods: float) -> Drive:
     return _with_others(as_drive(plan, tuple(recorded(plan))), chance)
 
 
-def without(drive: Drive, topic: str) -> Drive:
+def without(drive: RecordedDrive, topic: str) -> RecordedDrive:
     """The same with no message of this topic; the bag still names it."""
     return replace(drive, said=tuple(each for each in drive.said if each.topic != topic))
 
@@ -101,7 +108,7 @@ def _topics(chance: Chance, odometry: str, seconds: float, limit: float) -> Iter
         )
 
 
-def _with_others(drive: Drive, chance: Chance) -> Drive:
+def _with_others(drive: RecordedDrive, chance: Chance) -> RecordedDrive:
     """And a topic said once, one never said, one of a strange type, and another one's odometry."""
     first, last = drive.said[0].time_ns, drive.said[-1].time_ns
     others = (
@@ -111,21 +118,21 @@ def _with_others(drive: Drive, chance: Chance) -> Drive:
         Held("/other_rover/odom", ODOM.type),
     )
     once, _, strange, other = others
-    said = [Said(_within(chance, first, last), once.name, 0, "", (0.0,))]
+    said = [RecordedMessage(_within(chance, first, last), once.name, 0, "", (0.0,))]
     said += _steadily(strange.name, first, last, 0.21)
     said += _steadily(other.name, first, last, 0.11)
     every = sorted((*drive.said, *said), key=lambda each: (each.time_ns, each.topic))
-    return Drive((*drive.topics, *others), tuple(every))
+    return RecordedDrive((*drive.topics, *others), tuple(every))
 
 
 def _within(chance: Chance, first: int, last: int) -> int:
     return int(chance.between(first + (last - first) * 0.1, last - (last - first) * 0.1))
 
 
-def _steadily(topic: str, first: int, last: int, period_s: float) -> Iterator[Said]:
+def _steadily(topic: str, first: int, last: int, period_s: float) -> Iterator[RecordedMessage]:
     """Another rover on a circle: fast, and far away."""
     step_ns = int(period_s * NS)
     for time_ns in range(first + step_ns, last, step_ns):
         turn = (time_ns - first) / NS
         values = (2.5, 1.0, 50 + 2.5 * math.cos(turn), 2.5 * math.sin(turn), turn)
-        yield Said(time_ns, topic, time_ns, "odom", values)
+        yield RecordedMessage(time_ns, topic, time_ns, "odom", values)

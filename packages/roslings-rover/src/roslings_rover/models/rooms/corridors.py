@@ -2,8 +2,8 @@
 
 It goes along one wall, so one can drive past it on the other side, wherever it is.
 
-Each cell is reached from each other one, since the corridors begin as a tree that spans all cells
-(a depth-first search in a drawn order); then some dead ends are opened.
+Each cell is reached from each other one. The corridors begin as a tree that spans all cells (a
+depth-first search in a drawn order). Then some dead ends are opened.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 from roslings_rover.models.drives.chance import Chance
 from roslings_rover.models.rooms.furniture import track_between
-from roslings_rover.models.rooms.room import Place, Plan, Track
+from roslings_rover.models.rooms.room import FloorPlan, Place, Track
 from roslings_rover.models.world import Box
 
 Cell = tuple[int, int]
@@ -62,7 +62,7 @@ class Maze:
         return [cell for cell in self.cells if len(self.open[cell]) == 1]
 
 
-def corridors(chance: Chance) -> Plan:
+def corridors(chance: Chance) -> FloorPlan:
     """The maze, its walls, and what moves; another one is drawn where nothing finds a track."""
     while True:
         maze = Maze(chance.pick(COLUMNS), chance.pick(ROWS), chance.pick(PITCHES_M))
@@ -73,7 +73,7 @@ def corridors(chance: Chance) -> Plan:
             break
     inside = Box(0.0, 0.0, maze.columns * maze.pitch_m, maze.rows * maze.pitch_m)
     starts = tuple(map(maze.middle, chance.shuffled(maze.cells)))
-    return Plan(inside, tuple(_walls(maze)), tracks, starts)
+    return FloorPlan(inside, tuple(_walls(maze)), tracks, starts)
 
 
 def _span(maze: Maze, chance: Chance) -> None:

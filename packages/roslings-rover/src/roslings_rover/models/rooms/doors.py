@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from roslings_rover.models.drives.chance import Chance
 from roslings_rover.models.rooms.furniture import TINY_M, Area, drawn
 from roslings_rover.models.rooms.open_floor import place_on
-from roslings_rover.models.rooms.room import PASSAGE_M, Plan, apart_m
+from roslings_rover.models.rooms.room import PASSAGE_M, FloorPlan, apart_m
 from roslings_rover.models.world import Box
 
 WIDE_M, HIGH_M = (7.5, 9.0), (5.5, 7.5)
@@ -77,7 +77,7 @@ class House:
             yield Area(room, keeps_free=[d for d in self.doors if apart_m(room, d) <= TINY_M])
 
 
-def rooms_with_doors(chance: Chance) -> Plan:
+def rooms_with_doors(chance: Chance) -> FloorPlan:
     """A house, furnished; another one is drawn where no room is large enough for what moves."""
     while True:
         inside = Box(0.0, 0.0, drawn(chance, *WIDE_M), drawn(chance, *HIGH_M))
@@ -95,11 +95,11 @@ def rooms_with_doors(chance: Chance) -> Plan:
     return _plan(inside, house, areas, chance)
 
 
-def _plan(inside: Box, house: House, areas: list[Area], chance: Chance) -> Plan:
+def _plan(inside: Box, house: House, areas: list[Area], chance: Chance) -> FloorPlan:
     things = (thing for area in areas for thing in area.things)
     tracks = tuple(track for area in areas for track in area.tracks)
     starts = [place_on(area.floor, chance) for area in areas for _ in range(STARTS_A_ROOM)]
-    return Plan(inside, (*house.walls, *things), tracks, tuple(chance.shuffled(starts)))
+    return FloorPlan(inside, (*house.walls, *things), tracks, tuple(chance.shuffled(starts)))
 
 
 def _doors(wall: Box, chance: Chance) -> list[float]:

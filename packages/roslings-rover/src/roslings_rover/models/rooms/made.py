@@ -10,11 +10,11 @@ from roslings_rover.models.drives.chance import Chance
 from roslings_rover.models.rooms.corridors import corridors
 from roslings_rover.models.rooms.doors import rooms_with_doors
 from roslings_rover.models.rooms.open_floor import open_floor
-from roslings_rover.models.rooms.room import KINDS, Kind, Plan, SeededRoom, Start
+from roslings_rover.models.rooms.room import KINDS, FloorPlan, Kind, SeededRoom, StartPose
 from roslings_rover.models.rooms.seeds import checked
 from roslings_rover.models.world import World
 
-PLANS: dict[Kind, Callable[[Chance], Plan]] = {
+PLANS: dict[Kind, Callable[[Chance], FloorPlan]] = {
     "boxes": open_floor,
     "corridors": corridors,
     "doors": rooms_with_doors,
@@ -34,7 +34,7 @@ def room_of(seed: int) -> SeededRoom:
             return _seen_from(start, plan, seed, kind)
 
 
-def _start(plan: Plan, chance: Chance) -> Start | None:
+def _start(plan: FloorPlan, chance: Chance) -> StartPose | None:
     """A place with free floor, and a direction in which one can drive; None where all are taken."""
     full = plan.full
     for place in plan.starts:
@@ -42,11 +42,11 @@ def _start(plan: Plan, chance: Chance) -> Start | None:
             continue
         for quarters in chance.shuffled(range(4)):
             if full.distance(*place, quarters * math.pi / 2) >= AHEAD_M:
-                return Start(*place, quarters)
+                return StartPose(*place, quarters)
     return None
 
 
-def _seen_from(start: Start, plan: Plan, seed: int, kind: Kind) -> SeededRoom:
+def _seen_from(start: StartPose, plan: FloorPlan, seed: int, kind: Kind) -> SeededRoom:
     return SeededRoom(
         seed,
         kind,

@@ -96,7 +96,7 @@ class SeededRoom:
 
 
 @dataclass(frozen=True)
-class Plan:
+class FloorPlan:
     """A room before it is known where the rover starts."""
 
     inside: Box
@@ -112,7 +112,7 @@ class Plan:
 
 
 @dataclass(frozen=True)
-class Start:
+class StartPose:
     """Where a rover starts in a plan, and in how many quarter turns from x it looks."""
 
     x_m: float

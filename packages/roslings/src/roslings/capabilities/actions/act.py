@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any, Literal
+from typing import Literal
 
 from ros2_on_pip.rates import measure_rate
 from roslings.arena import Process
@@ -14,9 +14,10 @@ from roslings.capabilities.actions.goals import GoalTaker, read_actions
 from roslings.capabilities.actions.record import ActionsSeen
 from roslings.capabilities.services.act import TURNS_WITHIN_S, await_end
 from roslings.course import NodeContract, RateContract
+from roslings.course.contract import Plain
 from roslings.experiment.on_the_wall import CANARY_WITHIN_S, longest_wait_s, singing, trouble
 from roslings.experiment.scene import Scene
-from roslings.rates import own_rate
+from roslings.seen.rates import own_rate
 
 SENDS_WITHIN_S = 6.0
 SHOWS_WITHIN_S, SHOWS_MORE_WITHIN_S = 3.0, 1.0
@@ -27,7 +28,7 @@ def await_action(scene: Scene) -> None:
     """Wait until a node performs an action; the fullest sight is kept, as of the graph."""
 
     def there() -> bool:
-        ends = read_actions(scene.probe.eye, scene.seen.graph.nodes)
+        ends = read_actions(scene.probe.node, scene.seen.graph.nodes)
         if len(ends) >= len(scene.seen.part(ActionsSeen).ends):
             scene.seen.recording(ActionsSeen).ends = ends
         return any(end.kind == "server" for end in ends)
@@ -78,7 +79,7 @@ def lead(
     feedback: Sequence[Mapping[str, float]],
     shown: Sequence[str],
     how: Literal["succeed", "abort"],
-    result: Mapping[str, Any],
+    result: Mapping[str, Plain],
 ) -> None:
     """Take the client's goal, send it feedback, each when the one before is shown, and end it."""
     scene.until_own(lambda: _took_goal(scene, taker), SENDS_WITHIN_S)
@@ -105,6 +106,6 @@ def await_client(scene: Scene, process: Process, node: NodeContract) -> None:
 
 
 def _note_clients(scene: Scene) -> bool:
-    ends = read_actions(scene.probe.eye, scene.seen.graph.nodes)
+    ends = read_actions(scene.probe.node, scene.seen.graph.nodes)
     scene.seen.recording(ActionsSeen).ends = ends or scene.seen.part(ActionsSeen).ends
     return any(end.kind == "client" for end in ends)

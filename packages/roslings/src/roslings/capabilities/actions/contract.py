@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from pydantic import Field
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected, Promise, Prose, RateContract
+from roslings.course.contract import (
+    Contract,
+    Expected,
+    NodeWords,
+    Promise,
+    Prose,
+    RateContract,
+)
 from roslings.course.kinds import Kind
-
-if TYPE_CHECKING:
-    from roslings.course import NodeContract
-
 
 RESTLESS = 5.0
 """Feedback that is so many times too frequent comes from a loop without a pause."""
@@ -36,14 +39,14 @@ class ActionContract(Contract):
     )
 
 
-class ActionWords(Contract):
+class ActionWords(NodeWords):
     """What a card may say of a node."""
 
     performs: tuple[ActionContract, ...] = ()
     orders: tuple[ActionContract, ...] = ()
 
 
-def rows(node: NodeContract) -> Iterable[Row]:
+def rows(node: ActionWords) -> Iterable[Row]:
     """Each action with its type, its feedback, its rules and its time."""
     verbs = {"performs": node.performs, "sends goals to": node.orders}
     for verb, action in ((verb, action) for verb, each in verbs.items() for action in each):

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from ros2_on_pip.near_names import nearest
 from roslings.capabilities.actions import faults
 from roslings.capabilities.actions.contract import ActionContract
+from roslings.capabilities.actions.reasons import NoGoal
 from roslings.capabilities.actions.record import ActionEnd, ActionsSeen
 from roslings.capabilities.services import demands as services
 from roslings.capabilities.services.demands import end_by_itself, require_code, require_no_crash
@@ -15,7 +15,9 @@ from roslings.course import NodeContract, OutcomeContract
 from roslings.course.files import written
 from roslings.evidence import ExperimentSeen
 from roslings.judge.demands import insist_on_at_most, most_similar
-from roslings.judge.faults import NothingToJudge, NotLogged
+from roslings.judge.faults import NotLogged
+from roslings.judge.faults.moments import When
+from roslings.judge.faults.writing import PlaceInCode
 from roslings.judge.values import same
 from roslings.judge.views import Demand, ExperimentView
 from roslings.judge.words import how_it_went
@@ -44,7 +46,7 @@ def perform_its_type(action: ActionContract) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         end = _server(experiment, action)
         if end is None:
-            raise NothingToJudge(f"nobody performs {action.action}, so it has no type")
+            raise NoGoal("no_type", action.action)
         if end.type != action.type:
             raise faults.WrongActionType(end.action, action.type, end.type)
 
@@ -68,14 +70,14 @@ def _server(experiment: ExperimentView, action: ActionContract) -> ActionEnd | N
 
 
 def send_goal(
-    node: NodeContract, action: ActionContract, goal: Mapping[str, Any]
+    node: NodeContract, action: ActionContract, goal: Mapping[str, float]
 ) -> Demand[ExperimentView]:
     """The client sends its goal to the server, as its parameters say."""
 
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
         if not experiment.seen.part(ActionsSeen).orders:
-            require_no_crash(process, f"sends a goal to {action.action}")
+            require_no_crash(process, "sends", action.action)
             near = nearest(action.action, (e.action for e in _ends(experiment, "client")))
             if near and not near.exact:
                 raise faults.SendsElsewhere(near)
@@ -112,8 +114,8 @@ def show_each(node: NodeContract, texts: Sequence[str]) -> Demand[ExperimentView
                 node.executable,
                 line,
                 most_similar(line, process.texts),
-                when=f"when the feedback says {missing[0]}",
-                place="in the function that you give as feedback_callback",
+                when=When("feedback_is", missing[0]),
+                place=PlaceInCode("feedback"),
             )
         for line in lines.values():
             insist_on_at_most(process, [line], 1)
@@ -127,18 +129,19 @@ def end_so(node: NodeContract, outcome: OutcomeContract, text: str = "") -> Dema
     def demand(experiment: ExperimentView) -> None:
         process = experiment.process(node)
         line, case = outcome.log.format(text=text), outcome.when.removeprefix("when ")
-        experiment.must(end_by_itself(node, None, f"when {case}", _answered))
-        require_no_crash(process, f"writes {line!r} when {case}")
+        when = When("card", case)
+        experiment.must(end_by_itself(node, None, when, _answered))
+        require_no_crash(process, "writes", line, when)
         if not any(line in found for found in process.texts):
             raise NotLogged(
                 node.executable,
                 line,
                 most_similar(line, process.texts),
-                when=f"when {case}",
-                place=f"where your code learns that {case}",
+                when=when,
+                place=PlaceInCode("case", case),
             )
         insist_on_at_most(process, [line], 1)
-        require_code(process, outcome.exit_code, f"when {case}")
+        require_code(process, outcome.exit_code, when)
 
     return demand
 

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
-from ros2_on_pip.near_names import Near
 from roslings.judge.faults.base import Fault
-from roslings.judge.faults.graph import guess
+from roslings.judge.faults.ends import Went
+from roslings.judge.faults.graph import NearlyNamed, with_guess
+from roslings.judge.faults.sentences import Text, one_of, plural
+
+GoodEnd = Literal["succeeded", "canceled", "aborted"]
+"""States in which a goal may be asked to end."""
 
 # --- who performs what -------------------------------------------------------------------------
 
@@ -28,27 +33,26 @@ class NoAction(Fault):
         " self. Check with `ros2 action list` while the node runs."
     )
 
+    measured = one_of(
+        client="the node is a client of {action}, and nobody performs it",
+        nobody="no node performs {action}, or a name like it",
+    )
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """What there is."""
-        if self.is_client:
-            return f"the node is a client of {self.action}, and nobody performs it"
-        return f"no node performs {self.action}, or a name like it"
+        return "client" if self.is_client else "nobody"
 
 
 @dataclass(eq=False)
-class WrongAction(Fault):
+class WrongAction(NearlyNamed):
     """The action is there under another name."""
 
-    near: Near
     why = "Client and server meet only when both use the very same name."
     hint = "Look at the name in ActionServer(...). Check with `ros2 action list`."
     expected = "an action called {near.wanted}"
 
-    @property
-    def measured(self) -> str:
-        """The name that is there, and the likely slip."""
-        return f"it is called {self.near.found}{guess(self.near)}"
+    measured = with_guess("it is called {near.found}")
 
 
 @dataclass(eq=False)
@@ -96,7 +100,7 @@ class RefusesGoodGoal(Fault):
     """A goal that can be reached is refused."""
 
     goal: str
-    when: str
+    when: Text
     why = "A server that refuses what it can do is of no use."
     hint = (
         "Look at the conditions before GoalResponse.REJECT in the goal callback. Are the numbers"
@@ -132,19 +136,18 @@ class AcceptsImpossible(Fault):
         "Which line of the goal callback should refuse this goal? Go through it with these numbers."
     )
 
+    mend = one_of(
+        nan="Each comparison with nan is False. So ask what is right, not what is wrong:"
+        " `if not (WEST <= goal.x <= EAST): return GoalResponse.REJECT`. Or use"
+        " math.isfinite(NUMBER).",
+        number="In the goal callback, compare each number of the goal with the card, before"
+        " GoalResponse.ACCEPT.",
+    )
+
     @property
-    def mend(self) -> str:
-        """The trap of nan."""
-        if "nan" in self.goal:
-            return (
-                "Each comparison with nan is False. So ask what is right, not what is wrong:"
-                " `if not (WEST <= goal.x <= EAST): return GoalResponse.REJECT`. Or use"
-                " math.isfinite(NUMBER)."
-            )
-        return (
-            "In the goal callback, compare each number of the goal with the card, before"
-            " GoalResponse.ACCEPT."
-        )
+    def which_mend(self) -> str:
+        """The trap of nan, or another number."""
+        return "nan" if "nan" in self.goal else "number"
 
 
 # --- on the way --------------------------------------------------------------------------------
@@ -161,15 +164,16 @@ class ExecuteFailed(Fault):
 
     hint = "The lines below show the place: the last one names the error."
 
+    mend = one_of(
+        feedback="Feedback belongs to one goal: call goal_handle.publish_feedback(feedback), with"
+        " the goal_handle that the execute callback gets.",
+        read="The lines below show the place: the last one names the error.",
+    )
+
     @property
-    def mend(self) -> str:
-        """Where to look."""
-        if "publish_feedback" in self.error:
-            return (
-                "Feedback belongs to one goal: call goal_handle.publish_feedback(feedback), with"
-                " the goal_handle that the execute callback gets."
-            )
-        return "The lines below show the place: the last one names the error."
+    def which_mend(self) -> str:
+        """What Python says of it."""
+        return "feedback" if "publish_feedback" in self.error else "read"
 
 
 @dataclass(eq=False)
@@ -194,8 +198,8 @@ class NoFeedback(Fault):
 class WrongEnd(Fault):
     """The goal ended in another state than it should."""
 
-    when: str
-    wanted: str
+    when: Text
+    wanted: GoodEnd
     found: str
     why = "Success, cancelled and aborted are the last word of a goal. Others act on it."
     expected = "{when}, the goal's state is {wanted!r}"
@@ -203,14 +207,15 @@ class WrongEnd(Fault):
 
     hint = "Which call says how the goal has ended? Look at this way through the function."
 
+    mend = (
+        "Call goal_handle.{call}() before you return the result. The last call decides, and"
+        " each way through the function needs its own."
+    )
+
     @property
-    def mend(self) -> str:
+    def call(self) -> str:
         """The call that sets it."""
-        call = {"succeeded": "succeed", "canceled": "canceled", "aborted": "abort"}[self.wanted]
-        return (
-            f"Call goal_handle.{call}() before you return the result. The last call decides, and"
-            " each way through the function needs its own."
-        )
+        return {"succeeded": "succeed", "canceled": "canceled", "aborted": "abort"}[self.wanted]
 
 
 @dataclass(eq=False)
@@ -239,8 +244,8 @@ class WrongResult(Fault):
     """A field of the result is not what it should be."""
 
     field_name: str
-    when: str
-    wanted: str
+    when: Text
+    wanted: Text
     found: str
     why = "Who gave the goal reads in the result what came of it."
     expected = "{when}, result.{field_name} is {wanted}"
@@ -248,15 +253,15 @@ class WrongResult(Fault):
 
     hint = "Look at `result.{field_name} = ...`, on each way through the function."
 
+    mend = one_of(
+        elapsed="Note the time at the start of the execute callback, by self.get_clock().now()."
+        " At the end, subtract it from the new one: .nanoseconds / 1e9 of that are the seconds."
+    )
+
     @property
-    def mend(self) -> str:
-        """How long it took."""
-        if self.field_name != "elapsed":
-            return ""
-        return (
-            "Note time.monotonic() at the start of the execute callback. At the end, subtract"
-            " it from the new one: seconds."
-        )
+    def which_mend(self) -> str:
+        """How long it took; of other fields there is no more to say."""
+        return "elapsed" if self.field_name == "elapsed" else ""
 
 
 # --- cancel ------------------------------------------------------------------------------------
@@ -288,14 +293,14 @@ class SentNoGoal(Fault):
 
     executable: str
     action: str
-    how: str
+    went: Went
     why = "The server was ready. A client that sends no goal moves nothing."
     hint = (
         "Does your code wait for the server (wait_for_server), and then come to"
         " send_goal_async(goal)? Write a line to the log right before it, and see."
     )
     expected = "{executable} sends a goal to {action}"
-    measured = "no goal came; {how}"
+    measured = "no goal came; {went}"
 
 
 @dataclass(eq=False)
@@ -305,10 +310,7 @@ class SendsElsewhere(WrongAction):
     hint = "Look at the name in ActionClient(...). Check with `ros2 action list`."
     expected = "a client of {near.wanted}"
 
-    @property
-    def measured(self) -> str:
-        """The name that it uses, and the likely slip."""
-        return f"it is a client of {self.near.found}{guess(self.near)}"
+    measured = with_guess("it is a client of {near.found}")
 
 
 @dataclass(eq=False)
@@ -342,4 +344,4 @@ class GoalSentAgain(Fault):
     why = "A second goal is another journey: the server refuses it, or the rover drives twice."
     hint = "How often is send_goal_async(goal) reached? Look for a loop, or a timer that goes on."
     expected = "{executable} sends one goal to {action}"
-    measured = "it sent {count} goals"
+    measured = plural("count", one="it sent {count} goal", other="it sent {count} goals")

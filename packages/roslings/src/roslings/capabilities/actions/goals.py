@@ -1,6 +1,6 @@
 """Give goals to actions and take goals, and keep what was said and when.
 
-Goals are given by the three services behind each action, not by rclpy's ActionClient: that one
+Goals are given by the three services behind each action, not by rclpy's ActionClient. That one
 loses an answer which comes before the call that asked for it has returned.
 """
 
@@ -14,7 +14,7 @@ from types import TracebackType
 from typing import Any, Literal
 
 from roslings.capabilities.actions.record import ActionEnd, ActionsSeen, GoalSeen
-from roslings.capabilities.services.calling import Call, Caller
+from roslings.capabilities.services.calling import Caller, ServiceCall
 from roslings.capabilities.services.record import CallSeen
 from roslings.probe.content import message_class, to_plain
 from roslings.probe.probe import Probe
@@ -82,30 +82,30 @@ class GoalGiver:
         call = self._callers["send_goal"].send_message(request, goal)
         return Goal(seen, call, self.ask_result, self.ask_cancel)
 
-    def ask_result(self, seen: GoalSeen) -> Call:
+    def ask_result(self, seen: GoalSeen) -> ServiceCall:
         """Ask for the goal's result: the answer comes when the goal has ended."""
         request: Any = message_class(f"{self._type}_GetResult").Request()
         request.goal_id.uuid = seen.id
         return self._callers["get_result"].send_message(request, {})
 
-    def ask_cancel(self, seen: GoalSeen) -> Call:
+    def ask_cancel(self, seen: GoalSeen) -> ServiceCall:
         """Ask to cancel the goal."""
         request: Any = message_class("action_msgs/srv/CancelGoal").Request()
         request.goal_info.goal_id.uuid = seen.id
         return self._callers["cancel_goal"].send_message(request, {})
 
 
-Ask = Callable[[GoalSeen], Call]
+Ask = Callable[[GoalSeen], ServiceCall]
 
 
 class Goal:
     """One goal that is under way, or has ended."""
 
-    def __init__(self, seen: GoalSeen, sent: Call, ask_result: Ask, ask_cancel: Ask) -> None:
+    def __init__(self, seen: GoalSeen, sent: ServiceCall, ask_result: Ask, ask_cancel: Ask) -> None:
         self.seen = seen
         self._sent, self._ask_result, self._ask_cancel = sent, ask_result, ask_cancel
-        self._result: Call | None = None
-        self._cancel: Call | None = None
+        self._result: ServiceCall | None = None
+        self._cancel: ServiceCall | None = None
 
     def await_answer(self, within_s: float, while_true: Callable[[], bool]) -> bool:
         """Wait until the goal is accepted or refused; whether it was accepted."""
@@ -168,7 +168,7 @@ class GoalTaker:
         from rclpy.action import ActionServer
 
         self._server = ActionServer(
-            self._probe.eye,
+            self._probe.node,
             self._class,
             self._action,
             self._finish,
@@ -232,12 +232,12 @@ class GoalTaker:
         return result
 
 
-def read_actions(eye: Any, nodes: Iterable[str]) -> list[ActionEnd]:
+def read_actions(probe_node: Any, nodes: Iterable[str]) -> list[ActionEnd]:
     """The actions of the nodes (full names), from both sides."""
-    return [end for node in sorted(set(nodes)) for end in _ends_of(eye, node)]
+    return [end for node in sorted(set(nodes)) for end in _ends_of(probe_node, node)]
 
 
-def _ends_of(eye: Any, node: str) -> Iterable[ActionEnd]:
+def _ends_of(probe_node: Any, node: str) -> Iterable[ActionEnd]:
     from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
     from rclpy.action import (
         get_action_client_names_and_types_by_node as clients,
@@ -248,8 +248,8 @@ def _ends_of(eye: Any, node: str) -> Iterable[ActionEnd]:
 
     space, _, name = node.rpartition("/")
     try:
-        performed = servers(eye, name, space or "/")
-        ordered = clients(eye, name, space or "/")
+        performed = servers(probe_node, name, space or "/")
+        ordered = clients(probe_node, name, space or "/")
     except (NodeNameNonExistentError, RCLError):  # it has just left the graph
         return
     yield from _own("server", node, performed)

@@ -9,11 +9,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from roslings.capabilities.actions import faults
+from roslings.capabilities.actions.reasons import NoGoal
 from roslings.capabilities.actions.record import ActionsSeen, GoalLimits, GoalSeen, answer_to
 from roslings.course.contract import Plain
 from roslings.evidence import MessageSeen, TopicSeen
 from roslings.judge.demands import require_its_time, require_steady
-from roslings.judge.faults import NothingToJudge
+from roslings.judge.faults.moments import Awaited
+from roslings.judge.faults.sentences import Text
 from roslings.judge.values import same
 from roslings.judge.views import ExperimentView, ProcessView
 
@@ -23,7 +25,7 @@ RAISED = "Error raised in execute callback: "
 
 
 @dataclass(frozen=True)
-class Given:
+class GivenGoal:
     """One goal of the grader's, and the node that it was given to."""
 
     goal: GoalSeen
@@ -45,7 +47,7 @@ def limits(experiment: ExperimentView) -> GoalLimits:
     return experiment.seen.part(ActionsSeen).limits
 
 
-def require_answer(experiment: ExperimentView, given: Given) -> None:
+def require_answer(experiment: ExperimentView, given: GivenGoal) -> None:
     """Raises the fault that tells why a goal was not answered."""
     if given.goal.answered_ns is not None:
         return
@@ -54,11 +56,11 @@ def require_answer(experiment: ExperimentView, given: Given) -> None:
         raise faults.EndedInsteadOfPerforming(given.words, waited_s, log=process.last_lines())
     require_steady(experiment.seen.stall_s)
     part = answer_to(given.goal.part)
-    require_its_time(experiment.seen, part, waited_s, "the answer to a goal")
+    require_its_time(experiment.seen, part, waited_s, Awaited("goal_answer"))
     raise faults.GoalUnanswered(given.words, waited_s)
 
 
-def require_accepted(experiment: ExperimentView, given: Given, when: str) -> None:
+def require_accepted(experiment: ExperimentView, given: GivenGoal, when: Text) -> None:
     """Raises the fault that tells why a good goal was not accepted."""
     require_answer(experiment, given)
     if not given.goal.accepted:
@@ -67,44 +69,44 @@ def require_accepted(experiment: ExperimentView, given: Given, when: str) -> Non
         raise faults.RefusesGoodGoal(given.words, when)
 
 
-def require_refused(experiment: ExperimentView, given: Given, because: str) -> None:
+def require_refused(experiment: ExperimentView, given: GivenGoal, because: str) -> None:
     """Raises AcceptsImpossible, and what `require_answer` raises."""
     require_answer(experiment, given)
     if given.goal.accepted:
         raise faults.AcceptsImpossible(given.words, because)
 
 
-def feedback_of(experiment: ExperimentView, given: Given) -> list[MessageSeen]:
+def feedback_of(experiment: ExperimentView, given: GivenGoal) -> list[MessageSeen]:
     """The feedback that belongs to a goal."""
     topic: TopicSeen | None = experiment.seen.topics.get(given.goal.feedback_topic)
     messages = topic.messages if topic else []
     return [m for m in messages if m.content and m.content["goal_id"]["uuid"] == given.goal.id]
 
 
-def require_no_error(given: Given) -> None:
+def require_no_error(given: GivenGoal) -> None:
     """Raises ExecuteFailed where the goal ended with an error of the student's code."""
     if error := error_of(given):
         raise faults.ExecuteFailed(error, log=given.node.last_lines())
 
 
-def error_of(given: Given) -> str:
+def error_of(given: GivenGoal) -> str:
     """The error that ended the goal; empty where none did."""
     raised = [text for text in given.node.texts if RAISED in text]
     return raised[0].partition(RAISED)[2] if raised and given.goal.status == "aborted" else ""
 
 
-def require_state(given: Given, wanted: str, when: str) -> None:
+def require_state(given: GivenGoal, wanted: faults.GoodEnd, when: Text) -> None:
     """Raises WrongEnd, or that nobody has set a state."""
     found = given.goal.status
     if found is None:
-        raise NothingToJudge("the goal did not end")
+        raise NoGoal("no_end")
     if found != wanted:
         assumed = any(NO_STATE in text for text in given.node.texts)
         kind = faults.SucceedForgotten if assumed and found == "aborted" else faults.WrongEnd
         raise kind(when, wanted, found)
 
 
-def require_result(given: Given, result: Mapping[str, Plain], when: str) -> None:
+def require_result(given: GivenGoal, result: Mapping[str, Plain], when: Text) -> None:
     """Raises WrongResult where a field holds something else."""
     for name, wanted in result.items():
         found = (given.goal.result or {}).get(name)

@@ -5,15 +5,31 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from ros2_on_pip.language import Text, counted, said
 from ros2_on_pip.markup import Markup, tag
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.actions.record import ActionsSeen, GoalSeen
 from roslings.evidence import Evidence, ExperimentSeen
 from roslings.report.html.scale import time_text
-from roslings.report.html.timeline_svg import Bar, Line, Look, counted, fields_text, table, timeline
+from roslings.report.html.timeline_svg import (
+    Bar,
+    Look,
+    TimelineRow,
+    fields_text,
+    in_experiment,
+    table,
+    timeline,
+)
 
 MOST_GOALS = 30
-HEAD = ("goal", "end", "after", "feedback", "fields", "result")
+HEAD = (
+    Text("page.goals.goal", "goal"),
+    Text("page.goals.end", "end"),
+    Text("page.goals.after", "after"),
+    Text("page.goals.feedback", "feedback"),
+    Text("page.goals.fields", "fields"),
+    Text("page.goals.result", "result"),
+)
 
 
 def sections(evidence: Evidence) -> Iterator[Markup]:
@@ -24,8 +40,8 @@ def sections(evidence: Evidence) -> Iterator[Markup]:
             "The first bar of a goal is the wait for its answer, the second the work; a dot is"
             " a feedback. A red bar has no end."
         )
-        note = tag("p", words, class_="about")
-        yield tag("section", tag("h2", "Goals of actions"), note, *figures)
+        note = tag("p", said("page.goals.about", words), class_="about")
+        yield tag("section", tag("h2", said("page.goals", "Goals of actions")), note, *figures)
 
 
 def _goals_of(seen: ExperimentSeen) -> list[GoalSeen]:
@@ -39,18 +55,24 @@ def _figure(seen: ExperimentSeen) -> Markup:
     rows = [_row(seen, goal) for goal in goals]
     ends = Counter(_end_of(seen, goal) for goal in goals)
     told = ", ".join(f"{number} {end}" for end, number in ends.items())
-    words = f"{counted(len(goals), 'goal')}: {told}."
-    heading = tag("h3", f"in {seen.name}")
+    words = counted(
+        "page.goals.count",
+        len(goals),
+        one="{count} goal: {ends}.",
+        other="{count} goals: {ends}.",
+        ends=told,
+    )
+    heading = tag("h3", in_experiment(seen.name))
     return tag(
         "figure",
         heading,
         timeline(lines, words),
         tag("figcaption", words),
-        table("goals of actions", HEAD, rows),
+        table(said("page.goals.table", "goals of actions"), HEAD, rows),
     )
 
 
-def _line(seen: ExperimentSeen, goal: GoalSeen, goals: Sequence[GoalSeen]) -> Line:
+def _line(seen: ExperimentSeen, goal: GoalSeen, goals: Sequence[GoalSeen]) -> TimelineRow:
     began_ns, last_ns = goals[0].sent_ns, max(map(_last_ns, goals))
 
     def bar(from_ns: int, to_ns: int | None, look: Look) -> Bar:
@@ -61,7 +83,7 @@ def _line(seen: ExperimentSeen, goal: GoalSeen, goals: Sequence[GoalSeen]) -> Li
     if goal.accepted and goal.answered_ns and not _is_order(seen, goal):
         bars.append(bar(goal.answered_ns, goal.ended_ns, "working"))
     dots = tuple((at_ns - began_ns) / NS_PER_S for at_ns in _feedback_ns(seen, goal))
-    return Line(goal.part or goal.action, tuple(bars), dots)
+    return TimelineRow(goal.part or goal.action, tuple(bars), dots)
 
 
 def _is_order(seen: ExperimentSeen, goal: GoalSeen) -> bool:
@@ -106,9 +128,9 @@ def _row(seen: ExperimentSeen, goal: GoalSeen) -> tuple[str, ...]:
 
 def _end_of(seen: ExperimentSeen, goal: GoalSeen) -> str:
     if goal.answered_ns is None:
-        return "not answered"
+        return said("page.goals.not_answered", "not answered")
     if not goal.accepted:
-        return "refused"
+        return said("page.goals.refused", "refused")
     if _is_order(seen, goal):
-        return "accepted by the grader"
-    return goal.status or "without an end"
+        return said("page.goals.by_grader", "accepted by the grader")
+    return goal.status or said("page.goals.no_end", "without an end")

@@ -20,8 +20,8 @@ from roslings.experiment.missed import publishes, says
 from roslings.experiment.scene import Scene
 from roslings.experiment.start import Start
 from roslings.experiment.timing import accounting
-from roslings.matching import nearest_endpoint
 from roslings.probe.wall_clock import to_wall_ns
+from roslings.seen.matching import nearest_endpoint
 from roslings_rover.camera import Frame, Light, SocketCamera, SyntheticCamera
 from roslings_rover.rover import Disc
 

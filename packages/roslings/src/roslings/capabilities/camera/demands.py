@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from roslings.capabilities.camera.faults import images as faults
+from roslings.capabilities.camera.reasons import NoPictures
 from roslings.capabilities.camera.record import CAMERA, PixelsSeen
 from roslings.capabilities.parameters.contract import ParameterContract
 from roslings.capabilities.parameters.record import ParameterSet, ParametersSeen
@@ -15,7 +16,8 @@ from roslings.course import NodeContract, TopicContract
 from roslings.course.files import written
 from roslings.evidence import MessageSeen, StageMark
 from roslings.judge.demands import most_similar, require_its_time, require_steady
-from roslings.judge.faults import Fault, NothingToJudge
+from roslings.judge.faults import Fault
+from roslings.judge.faults.moments import Awaited
 from roslings.judge.views import Demand, ExperimentView, TopicView
 
 SAME_LEVELS = 2.5
@@ -66,7 +68,7 @@ def show_each_once(length: int) -> Demand[TopicView]:
     def demand(topic: TopicView) -> None:
         steps = list(_steps(topic, length))
         if len(steps) < FEWEST:
-            raise NothingToJudge("too few pictures were understood")
+            raise NoPictures("few")
         repeats = sum(moved < sent for sent, moved in steps) / len(steps)
         left_out = sum(moved > sent for sent, moved in steps) / len(steps)
         if repeats > max(MOST_STRAY, left_out):
@@ -96,14 +98,14 @@ def _steps(topic: TopicView, length: int) -> list[tuple[int, int]]:
 def _images(topic: TopicView) -> list[MessageSeen]:
     found = [m for m in topic.before_ctrl_c if isinstance(m.content, dict) and "step" in m.content]
     if not found:
-        raise NothingToJudge(f"no picture came on {topic.name}")
+        raise NoPictures("none", topic.name)
     return found
 
 
 def pixels_of(message: MessageSeen) -> PixelsSeen:
     """What the bytes of a picture held. Raises NothingToJudge where they were not looked at."""
     if not isinstance(message.content["data"], dict):
-        raise NothingToJudge("the pictures were not looked at when they came")
+        raise NoPictures("not_looked_at")
     return PixelsSeen.model_validate(message.content["data"])
 
 
@@ -191,7 +193,7 @@ def _lit(
     ]
     settled = tuple(during[AFTER_A_CHANGE:])
     if not settled or any(each.level is None for each in settled):
-        raise NothingToJudge("no picture came after the parameter was set")
+        raise NoPictures("none_after")
     return Lit(int(said.value), settled)
 
 
@@ -221,32 +223,35 @@ def refuse(node: NodeContract, parameter: ParameterContract) -> Demand[Experimen
     """The node refuses what is no value of the parameter, and lives on."""
 
     def demand(experiment: ExperimentView) -> None:
-        span = f"{parameter.type}, {parameter.least:g} to {parameter.most:g}"
+        span = (parameter.type, float(parameter.least or 0), float(parameter.most or 0))
         wrong = [
             each
             for each in experiment.seen.part(ParametersSeen).sets
             if each.name == parameter.name and not _within_limits(each, parameter)
         ]
         if not wrong:
-            raise NothingToJudge("no wrong value was tried")
+            raise NoPictures("not_tried")
         for each in wrong:
-            words = (each.node, each.name, repr(each.value), span)
+            asked = (each.node, each.name, repr(each.value))
             if each.accepted:
-                raise faults.ParameterAccepted(*words)
+                raise faults.ParameterAccepted(*asked, *span)
             if each.answered_ns is None:
-                raise _unanswered(experiment, node, words)
+                raise _unanswered(experiment, node, asked, span)
 
     return demand
 
 
 def _unanswered(
-    experiment: ExperimentView, node: NodeContract, words: tuple[str, str, str, str]
+    experiment: ExperimentView,
+    node: NodeContract,
+    asked: tuple[str, str, str],
+    span: tuple[str, float, float],
 ) -> Fault:
     process = experiment.process(node)
     if process.seen.ended_by_itself:
-        return faults.EndedByParameter(*words, log=process.last_lines())
+        return faults.EndedByParameter(*asked, *span, log=process.last_lines())
     require_steady(experiment.seen.stall_s)
-    return faults.ParameterNotSet(*words[:3], "")
+    return faults.ParameterNotSet(*asked, "")
 
 
 # --- a camera that is not there ----------------------------------------------------------------
@@ -270,7 +275,7 @@ def tell_of_trouble(
         if process.seen.ended_by_itself:
             raise faults.EndedWithoutCamera(*words, None, log=process.last_lines())
         require_steady(experiment.seen.stall_s)
-        require_its_time(experiment.seen, part, None, "a line about the camera")
+        require_its_time(experiment.seen, part, None, Awaited("camera_line"))
         raise faults.SilentAboutCamera(*words, most_similar(before + reasons[0], lines))
 
     return demand
@@ -288,11 +293,11 @@ def come_after(
         first_ns = min((at for at in sent if begin_ns < at < end_ns), default=None)
         if first_ns is None:
             require_steady(experiment.seen.stall_s)
-            require_its_time(experiment.seen, part, None, "a picture")
+            require_its_time(experiment.seen, part, None, Awaited("picture"))
             raise faults.NoPictureAfter(when, topic.topic)
         if (took_s := (first_ns - begin_ns) / 1e9) > within_s:
             require_steady(experiment.seen.stall_s)
-            require_its_time(experiment.seen, part, took_s - within_s, "a picture")
+            require_its_time(experiment.seen, part, took_s - within_s, Awaited("picture"))
             raise faults.TriesSeldom(when, topic.topic, retries_within_s, took_s)
 
     return demand
@@ -318,5 +323,5 @@ def _span_of(experiment: ExperimentView, part: str) -> tuple[float, float]:
     stages: list[StageMark] = experiment.seen.stages
     begin = next((stage.at_ns for stage in stages if stage.part == part), None)
     if begin is None:
-        raise NothingToJudge("the experiment did not come so far")
+        raise NoPictures("not_so_far")
     return begin, min((s.at_ns for s in stages if s.at_ns > begin), default=float("inf"))

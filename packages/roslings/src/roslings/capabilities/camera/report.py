@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ros2_on_pip.language import said
 from ros2_on_pip.markup import Markup, tag
 from roslings.capabilities.camera.record import CameraSeen, PictureKept
 from roslings.evidence import Evidence
@@ -20,7 +21,7 @@ def pictures(evidence: Evidence) -> Iterator[Markup]:
         for each in seen.part(CameraSeen).pictures
     ]
     if figures:
-        yield tag("section", tag("h2", "Pictures"), *figures)
+        yield tag("section", tag("h2", said("page.pictures", "Pictures")), *figures)
 
 
 def _picture(kept: PictureKept, experiment: str) -> Markup:
@@ -33,5 +34,6 @@ def _picture(kept: PictureKept, experiment: str) -> Markup:
         height=str(kept.height * larger),
         class_="picture",
     )
-    heading = tag("h3", f"{kept.title}, in {experiment}")
-    return tag("figure", heading, image, tag("figcaption", kept.caption))
+    words = "{title}, in {experiment}"
+    heading = said("page.picture", words, title=kept.title, experiment=experiment)
+    return tag("figure", tag("h3", heading), image, tag("figcaption", kept.caption))

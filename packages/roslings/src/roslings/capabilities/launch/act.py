@@ -15,7 +15,7 @@ from roslings.arena import Process
 from roslings.capabilities.launch.contract import LaunchContract
 from roslings.capabilities.launch.graph import are_alike
 from roslings.capabilities.launch.record import LABEL, UP, LaunchSeen, ProgramKilled
-from roslings.capabilities.parameters.answering import Asked, asked_again
+from roslings.capabilities.parameters.answering import RepeatedRequest, repeated_request
 from roslings.course import NodeContract
 from roslings.course.contract import Plain, as_typed
 from roslings.experiment.running import COMES_UP_WITHIN_S
@@ -151,8 +151,8 @@ def _called_like(node: NodeContract, names: Sequence[str]) -> list[str]:
 def _await_return(scene: Scene, killed: Sequence[ProgramKilled]) -> None:
     """Ask each node again and again until it answers: who is dead stays in the graph for long."""
     with ExitStack() as stack:
-        asked: list[Asked] = [
-            stack.enter_context(asked_again(scene.probe, each.node)) for each in killed
+        asked: list[RepeatedRequest] = [
+            stack.enter_context(repeated_request(scene.probe, each.node)) for each in killed
         ]
 
         def all_back() -> bool:

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from pydantic import Field
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected, Plain, Promise, Stimulus, as_typed
+from roslings.course.contract import (
+    CardWords,
+    Contract,
+    Expected,
+    Plain,
+    Promise,
+    Stimulus,
+    as_typed,
+)
 from roslings.course.kinds import Kind
-
-if TYPE_CHECKING:
-    from roslings.course import Card
 
 
 class ArgumentContract(Contract):
@@ -66,13 +71,13 @@ class LaunchContract(Contract):
         return self.file.rpartition("/")[2]
 
 
-class LaunchWords(Contract):
+class LaunchWords(CardWords):
     """What a card may say of the package."""
 
     launch: LaunchContract | None = None
 
 
-def rows(card: Card) -> Iterable[Row]:
+def rows(card: LaunchWords) -> Iterable[Row]:
     """The launch file, what it starts where, with which arguments, and what comes back."""
     if card.launch:
         yield "launch file", f"`{card.launch.file}`, starts {_started(card.launch)}"

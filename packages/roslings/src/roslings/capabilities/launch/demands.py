@@ -15,15 +15,22 @@ from roslings.capabilities.launch.contract import (
     NamespaceContract,
 )
 from roslings.capabilities.launch.graph import are_alike, graph_in, topics_outside
+from roslings.capabilities.launch.reasons import (
+    NothingLaunched,
+    OnlyTheFullRos,
+    SilentAboutParameters,
+)
 from roslings.capabilities.launch.record import LABEL, UP, LaunchSeen, ProgramKilled
 from roslings.capabilities.parameters.record import ParametersSeen
 from roslings.course import NodeContract
 from roslings.course.contract import Plain, as_typed
-from roslings.exits import is_late
 from roslings.judge.demands import require_its_time, require_processors, require_steady
-from roslings.judge.faults import Inconclusive, NothingToJudge
+from roslings.judge.faults.moments import Awaited
+from roslings.judge.faults.reasons import NothingSeen
+from roslings.judge.faults.sentences import Text
 from roslings.judge.views import Demand, ExperimentView, ProcessView
-from roslings.judge.words import describe_end
+from roslings.judge.words import end_of
+from roslings.seen.exits import is_late
 
 SHOWN = re.compile(r"^ {4}'(?P<name>[^']+)':")
 DEFAULT = re.compile(r"^\s+\(default: (?P<default>.*)\)\s*$")
@@ -34,7 +41,7 @@ Node = Callable[[str], NodeContract]
 def launch_of(experiment: ExperimentView) -> ProcessView:
     """The process of the launch. Raises NothingToJudge where there was none."""
     if LABEL not in experiment.seen.processes:
-        raise NothingToJudge("nothing was launched")
+        raise NothingLaunched("nothing")
     return experiment.labelled(LABEL)
 
 
@@ -52,7 +59,7 @@ def start_all(names: Sequence[str]) -> Demand[ExperimentView]:
     return demand
 
 
-def _require_time_to_come(experiment: ExperimentView, what: str) -> None:
+def _require_time_to_come(experiment: ExperimentView, what: Text) -> None:
     """Before it is held against the student that something is missing. Raises Inconclusive.
 
     On a busy computer, what is there shows in the graph as late as what is waited for.
@@ -71,10 +78,9 @@ def run_on(experiment: ExperimentView) -> None:
     process = launch_of(experiment)
     log = process.last_lines()
     if process.seen.status == NOT_READ_HERE:
-        raise Inconclusive(_not_read(log))
+        raise _not_read(log)
     if process.seen.ended_by_itself and not experiment.seen.graph.nodes:
-        how = describe_end(process.seen)
-        raise faults.LaunchFailed(process.seen.executable, how, log=log)
+        raise faults.LaunchFailed(process.seen.executable, end_of(process.seen), log=log)
 
 
 def _missing(process: ProcessView, name: str, there: tuple[str, ...]) -> faults.LaunchMissesNode:
@@ -83,17 +89,13 @@ def _missing(process: ProcessView, name: str, there: tuple[str, ...]) -> faults.
     elsewhere = any(each.rpartition("/")[2] == plain for each in there)
     in_it = any(each.startswith(f"{space}/") for each in there)
     kind = faults.NodeElsewhere if space and elsewhere and not in_it else faults.LaunchMissesNode
-    how, log = describe_end(process.seen), process.last_lines()
-    return kind(process.seen.executable, how, name, there, log=log)
+    end, log = end_of(process.seen), process.last_lines()
+    return kind(process.seen.executable, end, name, there, log=log)
 
 
-def _not_read(log: Sequence[str]) -> str:
+def _not_read(log: Sequence[str]) -> OnlyTheFullRos:
     said = [line.rpartition("[launch]: ")[2] for line in log if "needs the full ros2" in line]
-    why = f" ({said[0]})" if said else ""
-    return (
-        f"only the full ROS can carry out this launch file{why};"
-        " launch it there, or show it to your instructor"
-    )
+    return OnlyTheFullRos(said[0] if said else "")
 
 
 # --- the graph, namespace by namespace ---------------------------------------------------------
@@ -104,7 +106,7 @@ def start_in_each_namespace(
 ) -> Demand[ExperimentView]:
     """In each namespace of the card there is each node.
 
-    Of each node come the names that it may have there: a launch file may name it as the card does,
+    Of each node come the names that it may have there. A launch file may name it as the card does,
     else it keeps the name of its code. The last one is missed where none is there.
     """
 
@@ -135,8 +137,11 @@ def be_alike(contract: LaunchContract, *again: ExperimentView) -> Demand[Experim
         for first, second in pairwise(spaces):
             one, other = graph_in(graph, first), graph_in(graph, second)
             if one != other:
-                _require_time_to_come(experiment, "a topic of the launch")
-                alone = (tuple(sorted(one - other)), tuple(sorted(other - one)))
+                _require_time_to_come(experiment, Awaited("launch_topic"))
+                alone = [
+                    tuple(map(faults.PartOfGraph, sorted(each)))
+                    for each in (one - other, other - one)
+                ]
                 raise faults.NamespacesDiffer(first, second, *alone)
 
     return demand
@@ -174,7 +179,7 @@ def _insist_on_no_more(
     """Of each program as many run as there are namespaces left, whatever shows in the graph."""
     most = sum(each.only_with != argument for each in contract.namespaces)
     running = experiment.seen.part(LaunchSeen).running
-    more = tuple(f"{name} ({n} times)" for name, n in sorted(running.items()) if n > most)
+    more = tuple(faults.Times(name, n) for name, n in sorted(running.items()) if n > most)
     if more:
         raise faults.StartedAllTheSame(process.seen.executable, more)
 
@@ -203,7 +208,7 @@ def follow_the_file(contract: LaunchContract, node: Node) -> Demand[ExperimentVi
     def demand(experiment: ExperimentView) -> None:
         values = experiment.seen.part(LaunchSeen).values
         if not values:
-            raise NothingToJudge("the launch was given no file")
+            raise NothingLaunched("no_file")
         for space in contract.namespaces:
             for name in (each for each in values if each not in won):
                 _insist_on_value(experiment, space, name, values[name], node, faults.FileIgnored)
@@ -266,7 +271,8 @@ def _insist_on_value(
     found = values.get(parameter)
     if as_said(found) != as_said(wanted):
         command = launch_of(experiment).seen.executable
-        raise kind(command, where, parameter, as_said(wanted), as_said(found))
+        there = None if found is None else as_said(found)
+        raise kind(command, where, parameter, as_said(wanted), there)
 
 
 def _values_of(
@@ -281,9 +287,9 @@ def _values_of(
     there = [each for each in experiment.seen.graph.nodes if each.startswith(f"{namespace}/")]
     near = nearest(f"{namespace}/{plain}", there)
     if near is None:
-        raise NothingToJudge(f"no node is in {namespace}")
+        raise NothingLaunched("no_node", namespace)
     if near.found not in read:
-        raise Inconclusive(f"{near.found} did not say in time what its parameters are")
+        raise SilentAboutParameters(near.found)
     return near.found, read[near.found]
 
 
@@ -305,10 +311,10 @@ def show_its_arguments(contract: LaunchContract) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         process = launch_of(experiment)
         if process.seen.status == NOT_READ_HERE:
-            raise Inconclusive(_not_read(process.last_lines()))
+            raise _not_read(process.last_lines())
         if process.seen.status != 0:
-            how, log = describe_end(process.seen), process.last_lines()
-            raise faults.ArgumentsNotShown(process.seen.executable, how, log=log)
+            end, log = end_of(process.seen), process.last_lines()
+            raise faults.ArgumentsNotShown(process.seen.executable, end, log=log)
         there = dict(shown_arguments([line.text for line in process.lines]))
         for argument in contract.arguments:
             if not _is_default(argument.default, there.get(argument.name)):
@@ -380,7 +386,7 @@ def end_as_a_whole(limit_s: float) -> Demand[ExperimentView]:
         process = launch_of(experiment)
         seen = process.seen
         if seen.ending is None:
-            raise NothingToJudge("it ended before it was asked to")
+            raise NothingSeen("end")
         if is_late(seen, limit_s):
             require_steady(experiment.seen.stall_s)
             require_processors(seen.executable, seen.ending, limit_s)

@@ -4,7 +4,36 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from roslings.capabilities.launch.graph import Part
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.ends import End
+from roslings.judge.faults.sentences import SentencePart, one_of, plural, some_of
+
+
+@dataclass(frozen=True)
+class Times(SentencePart):
+    """A program that runs several times."""
+
+    name: str
+    count: int
+    text = plural("count", one="{name} ({count} time)", other="{name} ({count} times)")
+
+
+@dataclass(frozen=True)
+class PartOfGraph(SentencePart):
+    """A node, or what it does with a topic."""
+
+    part: Part
+    text = one_of(
+        node="{part.node}",
+        publisher="{part.node} publishes {part.topic} ({part.type})",
+        subscription="{part.node} subscribes to {part.topic} ({part.type})",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """What it is."""
+        return self.part.kind or "node"
 
 
 @dataclass(eq=False)
@@ -12,10 +41,10 @@ class LaunchFailed(Fault):
     """The launch itself ended with an error."""
 
     command: str
-    how: str
+    end: End
     why = "A launch file starts the whole robot with one command."
     expected = "`{command}` starts its nodes, and goes on until Ctrl-C"
-    measured = "it ended by itself ({how})"
+    measured = "it ended by itself ({end})"
     hint = "Read the last lines below, mend what they name, build again, and launch again."
 
 
@@ -24,7 +53,7 @@ class ArgumentsNotShown(LaunchFailed):
     """The file could not even be read for its arguments."""
 
     expected = "`{command}` shows the arguments of the launch file"
-    measured = "it ended with an error ({how})"
+    measured = "it ended with an error ({end})"
 
 
 @dataclass(eq=False)
@@ -37,22 +66,28 @@ class LaunchMissesNode(LaunchFailed):
 
     hint = "Compare the launch file with the card, node by node. Which one is missing?"
 
-    @property
-    def measured(self) -> str:  # type: ignore[override]
-        """The nodes that are there."""
-        return f"the nodes are: {', '.join(self.found) or 'none'}"
+    measured = one_of(some="the nodes are: {found}", none="the nodes are: none")
+    mend = one_of(
+        python="Each node needs a line Node(package=..., executable=...) of its own. {word} is the"
+        " executable of setup.py. Without name=..., a node keeps the name of its code.",
+        xml="Each node needs a line <node pkg=... exec=.../> of its own. {word} is the"
+        " executable of setup.py. Without name=..., a node keeps the name of its code.",
+    )
 
     @property
-    def mend(self) -> str:
-        """What to compare."""
-        line = "<node pkg=... exec=.../>"
-        word = "exec"
-        if ".launch.py" in self.command:
-            line, word = "Node(package=..., executable=...)", "executable"
-        return (
-            f"Each node needs a line {line} of its own. {word} is the executable of setup.py."
-            " Without name=..., a node keeps the name of its code."
-        )
+    def which_measured(self) -> str:
+        """Whether there are nodes."""
+        return "some" if self.found else "none"
+
+    @property
+    def which_mend(self) -> str:
+        """In which language the launch file is."""
+        return "python" if ".launch.py" in self.command else "xml"
+
+    @property
+    def word(self) -> str:
+        """The attribute that names the program, in this language."""
+        return "executable" if self.which_mend == "python" else "exec"
 
 
 @dataclass(eq=False)
@@ -61,13 +96,10 @@ class NodeElsewhere(LaunchMissesNode):
 
     hint = "Which nodes stand under which namespace? Look at the groups of the launch file."
 
-    @property
-    def mend(self) -> str:
-        """What makes a namespace."""
-        return (
-            "A namespace is pushed for the nodes that come after it in the same group:"
-            " GroupAction([PushRosNamespace(NAME), Node(...), Node(...)])."
-        )
+    mend = (
+        "A namespace is pushed for the nodes that come after it in the same group:"
+        " GroupAction([PushRosNamespace(NAME), Node(...), Node(...)])."
+    )
 
 
 @dataclass(eq=False)
@@ -93,8 +125,8 @@ class NamespacesDiffer(Fault):
 
     first: str
     second: str
-    only_first: tuple[str, ...]
-    only_second: tuple[str, ...]
+    only_first: tuple[PartOfGraph, ...]
+    only_second: tuple[PartOfGraph, ...]
     why = "Who has learned to know one robot must find the same things in the other one."
     expected = "the graph is the same in {first} and in {second}"
     hint = "Compare what the launch file says of the one robot with what it says of the other."
@@ -103,11 +135,17 @@ class NamespacesDiffer(Fault):
         " it twice."
     )
 
+    measured = some_of(
+        between="; ",
+        first="only in {first}: {only_first}",
+        second="only in {second}: {only_second}",
+    )
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> tuple[str, ...]:
         """What one of them has alone."""
-        both = ((self.first, self.only_first), (self.second, self.only_second))
-        return "; ".join(f"only in {name}: {', '.join(things)}" for name, things in both if things)
+        both = {"first": self.only_first, "second": self.only_second}
+        return tuple(name for name, things in both.items() if things)
 
 
 @dataclass(eq=False)
@@ -118,16 +156,22 @@ class WrongValueAfterLaunch(Fault):
     node: str
     name: str
     wanted: str
-    found: str
+    found: str | None
+    """None: the node has no such parameter."""
     why = "The same programs drive every robot: only the values of the file make the difference."
     expected = "after `{command}`, {name} of {node} is {wanted}"
-    measured = "it is {found}"
+    measured = one_of(another="it is {found}", missing="it is not there")
     hint = "Which file does this node get, and for which names do the values in it count?"
     mend = (
         "Does the node get the file, by parameters=[...]? In the file, a value counts for nodes"
         " whose full name fits: /red/beacon for one, /** for all. Below it stands ros__parameters,"
         " and below that NAME: VALUE."
     )
+
+    @property
+    def which_measured(self) -> str:
+        """Whether it has any."""
+        return "missing" if self.found is None else "another"
 
 
 @dataclass(eq=False)
@@ -160,7 +204,9 @@ class ArgumentIgnored(WrongValueAfterLaunch):
 class SectionOfTheNodeWins(ArgumentIgnored):
     """The argument wins over what the file says for all nodes, and not for this one."""
 
-    measured = "it is {found}, as the file says in its section {node}"
+    measured = one_of(
+        another="it is {found}, as the file says in its section {node}", missing="it is not there"
+    )
     hint = "Two places give this value. Which of them fits the node's full name better?"
     mend = (
         "In the file, the section {node} comes after /**. Give the Node its name, name=..., beside"
@@ -183,10 +229,12 @@ class WrongArguments(Fault):
         "DeclareLaunchArgument(NAME, default_value=TEXT, description=...), with the card's names."
     )
 
+    measured = one_of(some="it shows {found}", none="it shows no arguments")
+
     @property
-    def measured(self) -> str:
-        """The arguments that are shown."""
-        return f"it shows {', '.join(self.found) or 'no arguments'}"
+    def which_measured(self) -> str:
+        """Whether any are shown."""
+        return "some" if self.found else "none"
 
 
 @dataclass(eq=False)
@@ -194,7 +242,7 @@ class StartedAllTheSame(Fault):
     """Nodes were started that an argument should have left out."""
 
     command: str
-    found: tuple[str, ...]
+    found: tuple[str | Times, ...]
     why = "A robot that is not there needs no nodes."
     expected = "`{command}` starts nothing there"
     hint = "On what does it depend whether these nodes are started?"
@@ -203,10 +251,7 @@ class StartedAllTheSame(Fault):
         " condition=IfCondition(LaunchConfiguration(NAME)))."
     )
 
-    @property
-    def measured(self) -> str:
-        """What is there."""
-        return f"the nodes are: {', '.join(self.found)}"
+    measured = "the nodes are: {found}"
 
 
 @dataclass(eq=False)
@@ -219,10 +264,12 @@ class NothingToKill(Fault):
     expected = "the launch runs {executable}"
     hint = "Compare executable=... in the launch file with the names in setup.py."
 
+    measured = one_of(some="it runs {running}", none="it runs nothing of the package")
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """What runs."""
-        return f"it runs {', '.join(self.running) or 'nothing of the package'}"
+        return "some" if self.running else "none"
 
 
 @dataclass(eq=False)
@@ -240,12 +287,12 @@ class NotBack(Fault):
         " respawn_max_retries=NUMBER ends it."
     )
 
+    measured = one_of(late="it answered again after {after_s:.1f} s", never="it did not come back")
+
     @property
-    def measured(self) -> str:
-        """When it was back."""
-        if self.after_s is None:
-            return "it did not come back"
-        return f"it answered again after {self.after_s:.1f} s"
+    def which_measured(self) -> str:
+        """Whether it was back at all."""
+        return "never" if self.after_s is None else "late"
 
 
 @dataclass(eq=False)
@@ -257,7 +304,11 @@ class LeftByTheLaunch(Fault):
     was_seen = True
     why = "A forgotten node still commands the motors, and the next launch meets it."
     expected = "after Ctrl-C, nothing that `{command}` has started still runs"
-    measured = "{count} process(es) still ran after it had ended"
+    measured = plural(
+        "count",
+        one="{count} process still ran after it had ended",
+        other="{count} processes still ran after it had ended",
+    )
     hint = "What does the launch file start besides nodes?"
     mend = (
         "Start nodes with Node(...) alone: the launch ends these. What a launch file starts with"
@@ -278,9 +329,12 @@ class LaunchDoesNotEnd(LeftByTheLaunch):
         " node alone."
     )
 
+    measured = one_of(
+        late="it ended after {after_s:.1f} s",
+        never="it was still running and had to be killed",
+    )
+
     @property
-    def measured(self) -> str:  # type: ignore[override]
-        """The time that it took."""
-        if self.after_s is None:
-            return "it was still running and had to be killed"
-        return f"it ended after {self.after_s:.1f} s"
+    def which_measured(self) -> str:
+        """Whether it ended at all."""
+        return "never" if self.after_s is None else "late"

@@ -6,23 +6,31 @@ A leaf: experiments use it to know that all is there, checks to judge it.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from roslings.evidence import GraphSeen
-from roslings.matching import own_endpoints
-
-VERBS = {"publisher": "publishes", "subscription": "subscribes to"}
+from roslings.seen.matching import own_endpoints
 
 
-def graph_in(graph: GraphSeen, namespace: str) -> frozenset[str]:
-    """The nodes of a namespace and what each publishes and hears, in words, without its name.
+class Part(NamedTuple):
+    """A node of a namespace, or what it does with a topic; names are without the namespace's."""
+
+    node: str
+    kind: str = ""
+    """`publisher` or `subscription`; empty: it is the node itself."""
+    topic: str = ""
+    type: str = ""
+
+
+def graph_in(graph: GraphSeen, namespace: str) -> frozenset[Part]:
+    """The nodes of a namespace and what each publishes and hears.
 
     A topic outside of the namespace keeps its whole name, with the slash.
     """
     inside = f"{namespace}/"
-    nodes = {name.removeprefix(inside) for name in graph.nodes if name.startswith(inside)}
+    nodes = {Part(name.removeprefix(inside)) for name in graph.nodes if name.startswith(inside)}
     ends = {
-        f"{end.node.removeprefix(inside)} {VERBS[end.kind]} {end.topic.removeprefix(inside)}"
-        f" ({end.type})"
+        Part(end.node.removeprefix(inside), end.kind, end.topic.removeprefix(inside), end.type)
         for end in own_endpoints(graph)
         if end.node.startswith(inside)
     }

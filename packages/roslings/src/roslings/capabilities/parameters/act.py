@@ -8,7 +8,7 @@ from roslings.capabilities.parameters.record import ParametersSeen
 from roslings.course import NodeContract
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
-from roslings.matching import own_endpoints
+from roslings.seen.matching import own_endpoints
 
 
 def list_parameters(scene: Scene, node: NodeContract) -> None:

@@ -6,16 +6,16 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from roslings.capabilities.services.calling import Call, Caller
+from roslings.capabilities.services.calling import Caller, ServiceCall
 from roslings.probe.probe import Probe
 
 
-class Asked:
+class RepeatedRequest:
     """One node, and the requests that it was sent."""
 
     def __init__(self, caller: Caller) -> None:
         self._caller = caller
-        self._calls: list[Call] = []
+        self._calls: list[ServiceCall] = []
         self._sent_s = 0.0
 
     def first_ns(self, again_s: float) -> int | None:
@@ -30,7 +30,7 @@ class Asked:
 
 
 @contextmanager
-def asked_again(probe: Probe, node: str) -> Iterator[Asked]:
+def repeated_request(probe: Probe, node: str) -> Iterator[RepeatedRequest]:
     """A client of the node's service `list_parameters`."""
     with Caller(probe, f"{node}/list_parameters", "rcl_interfaces/srv/ListParameters") as caller:
-        yield Asked(caller)
+        yield RepeatedRequest(caller)

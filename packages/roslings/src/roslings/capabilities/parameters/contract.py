@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected, Plain, Promise, Stimulus, as_typed
+from roslings.course.contract import (
+    Contract,
+    Expected,
+    NodeWords,
+    Plain,
+    Promise,
+    Stimulus,
+    as_typed,
+)
 from roslings.course.kinds import Kind
-
-if TYPE_CHECKING:
-    from roslings.course import NodeContract
 
 
 class ParameterContract(Contract):
@@ -68,7 +73,7 @@ class ParameterContract(Contract):
         return self.least <= value <= self.most
 
 
-class ParameterWords(Contract):
+class ParameterWords(NodeWords):
     """What a card may say of a node."""
 
     parameters: tuple[ParameterContract, ...] = ()
@@ -77,8 +82,12 @@ class ParameterWords(Contract):
         """A parameter of the card. Raises KeyError where there is none of this name."""
         return {each.name: each for each in self.parameters}[name]
 
+    def named(self, *names: str) -> tuple[ParameterContract, ...]:
+        """Several of them, in the order of the names. Raises KeyError."""
+        return tuple(map(self.parameter, names))
 
-def rows(node: NodeContract) -> Iterable[Row]:
+
+def rows(node: ParameterWords) -> Iterable[Row]:
     """Each parameter with its type, its default and its limits."""
     return (("parameter", _row_of(parameter)) for parameter in node.parameters)
 

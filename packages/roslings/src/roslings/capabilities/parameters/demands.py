@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Sequence
 
 from ros2_on_pip.rates import Rate
-from roslings.capabilities.parameters.contract import ParameterContract
+from roslings.capabilities.parameters.contract import ParameterContract, ParameterWords
 from roslings.capabilities.parameters.faults import (
     NameStays,
     NoParameter,
@@ -16,6 +16,7 @@ from roslings.capabilities.parameters.faults import (
     WrongDefault,
     WrongParameterType,
 )
+from roslings.capabilities.parameters.reasons import ParametersUnknown
 from roslings.capabilities.parameters.record import (
     GIVEN_BY_ROS,
     ParameterDeclared,
@@ -25,10 +26,9 @@ from roslings.capabilities.topics.demands import have_rate
 from roslings.course import NodeContract, RateContract, TopicContract
 from roslings.course.files import written
 from roslings.judge.demands import require_believable, require_steady
-from roslings.judge.faults import NothingToJudge
 from roslings.judge.values import same
 from roslings.judge.views import Demand, ExperimentView, TopicView
-from roslings.matching import nearest_endpoint, own_endpoints
+from roslings.seen.matching import nearest_endpoint, own_endpoints
 
 
 def has_parameter(node: NodeContract, parameter: ParameterContract) -> Demand[ExperimentView]:
@@ -38,7 +38,7 @@ def has_parameter(node: NodeContract, parameter: ParameterContract) -> Demand[Ex
         name = experiment.node(node).near.found
         listed = experiment.seen.part(ParametersSeen).names.get(name)
         if not listed:
-            raise NothingToJudge(f"{name} did not say which parameters it has")
+            raise ParametersUnknown("no_names", name)
         own = tuple(each for each in listed if each not in GIVEN_BY_ROS and "." not in each)
         if parameter.name not in own:
             near = difflib.get_close_matches(parameter.name, own, n=1)
@@ -56,7 +56,7 @@ def declare_its_parameters(node: NodeContract, *given: str) -> Demand[Experiment
 
     def demand(experiment: ExperimentView) -> None:
         unseen = {*given, *_given(experiment, node)}
-        for parameter in node.parameters:
+        for parameter in node.of(ParameterWords).parameters:
             experiment.must(has_parameter(node, parameter))
             found = _declared(experiment, node, parameter)
             if found.type != parameter.type:
@@ -80,7 +80,7 @@ def _declared(
     for each in experiment.seen.part(ParametersSeen).declared:
         if (each.node, each.name) == (name, parameter.name):
             return each
-    raise NothingToJudge(f"{name} did not say what its parameters are")
+    raise ParametersUnknown("no_values", name)
 
 
 def follow_its_parameter(
@@ -88,25 +88,25 @@ def follow_its_parameter(
 ) -> Demand[TopicView]:
     """With the parameter set, the topic has the rate `asked`, and no longer its usual one."""
     wanted, before = written(asked.rate, asked.topic), written(usual.rate, usual.topic)
-    value, goal = f"{parameter.tried}", f"{wanted.hz:g} messages a second"
+    asked_for = (parameter.name, f"{parameter.tried}", wanted.hz)
 
     def demand(topic: TopicView) -> None:
         require_believable(topic.experiment)
         rate = topic.rate
         if rate is None or not (_within(rate, wanted) or _within(rate, before)):
             require_steady(topic.experiment.stall_s)
-            raise ParameterMisread(parameter.name, value, goal, _heard(topic), parameter.about)
+            raise ParameterMisread(*asked_for, *_heard(topic), parameter.about)
         if not _within(rate, wanted):
-            raise ParameterIgnored(parameter.name, value, goal, _heard(topic))
+            raise ParameterIgnored(*asked_for, *_heard(topic))
         topic.must(have_rate(asked))
 
     return demand
 
 
-def _heard(topic: TopicView) -> str:
-    if topic.rate:
-        return f"{topic.rate.hz:.2f} messages a second"
-    return f"{len(topic.messages)} message(s) in {topic.experiment.watching_s:.1f} s"
+def _heard(topic: TopicView) -> tuple[float | None, int, float]:
+    """The rate in Hz, where there is one; how many messages came, and in how many seconds."""
+    hz = topic.rate.hz if topic.rate else None
+    return hz, len(topic.messages), topic.experiment.watching_s
 
 
 def _within(rate: Rate, limit: RateContract) -> bool:
@@ -133,7 +133,7 @@ def carry_topic_along(
     def demand(experiment: ExperimentView) -> None:
         plain = nearest_endpoint(alone.seen.graph, "publisher", topic.topic, topic.type)
         if plain is None:
-            raise NothingToJudge("it publishes on no topic of its own")
+            raise ParametersUnknown("no_topic")
         for name in names:
             wanted = carried(plain.topic, plain.node, name)
             found = _topics_of(experiment, name)

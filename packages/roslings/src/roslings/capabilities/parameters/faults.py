@@ -3,8 +3,120 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.sentences import SentencePart, Text, one_of, plural
+
+# --- parts of sentences ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Asked(SentencePart):
+    """Values that were asked for, as `low = 1` is written."""
+
+    values: tuple[str, ...]
+    together: bool = False
+    """In one request."""
+    text = one_of(
+        one="{values}",
+        two="{values[0]} and {values[1]}",
+        more="{values}",
+        one_at_once="{values} at once",
+        two_at_once="{values[0]} and {values[1]} at once",
+        more_at_once="{values} at once",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """How many there are."""
+        many = {1: "one", 2: "two"}.get(len(self.values), "more")
+        return f"{many}_at_once" if self.together else many
+
+
+@dataclass(frozen=True)
+class Rule(SentencePart):
+    """What the card says of a parameter."""
+
+    says: Literal["fixed", "type", "span", "not_above"]
+    name: str
+    what: str = ""
+    """The type, or the parameter that it is not above."""
+    least: float = 0.0
+    most: float = 0.0
+    text = one_of(
+        fixed="{name} cannot be changed while the node runs",
+        type="{name} is of type {what}",
+        span="{name} is {least:g} to {most:g}",
+        not_above="{name} is never above {what}",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """Which rule it is."""
+        return self.says
+
+
+@dataclass(frozen=True)
+class AfterSet(SentencePart):
+    """When a node's deeds are looked at."""
+
+    asked: Asked | None
+    """None: before anybody asked for anything."""
+    was_taken: bool = True
+    text = one_of(
+        defaults="with the defaults",
+        taken="after {asked} was set",
+        refused="after {asked} was refused",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """What came of it."""
+        return "defaults" if self.asked is None else "taken" if self.was_taken else "refused"
+
+
+@dataclass(frozen=True)
+class Deed(SentencePart):
+    """What a node shows when it hears something."""
+
+    heard: Text
+    field: str
+    value: str
+    topic: str
+    text = "{heard} gives {field} {value} on {topic}"
+
+
+@dataclass(frozen=True)
+class Pace(SentencePart):
+    """How often messages come on a topic."""
+
+    hz: float
+    topic: str
+    text = "{hz:g} messages a second on {topic}"
+
+
+@dataclass(frozen=True)
+class PaceFound(SentencePart):
+    """How often they came."""
+
+    hz: float | None
+    text = one_of(some="{hz:.1f} a second", none="hardly any message came")
+
+    @property
+    def which_text(self) -> str:
+        """Whether there were enough to tell."""
+        return "none" if self.hz is None else "some"
+
+
+@dataclass(frozen=True)
+class NoMessageCame(SentencePart):
+    """Where a value is asked for."""
+
+    text = "no message came"
+
+
+# --- the faults --------------------------------------------------------------------------------
 
 
 @dataclass(eq=False)
@@ -23,12 +135,16 @@ class NoParameter(Fault):
         " the node runs."
     )
 
+    measured = one_of(
+        near="it has no {wanted!r}, but {near!r}: a spelling mistake?",
+        others="its own parameters are: {found}",
+        none="its own parameters are: none",
+    )
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """What it has."""
-        if self.near:
-            return f"it has no {self.wanted!r}, but {self.near!r}: a spelling mistake?"
-        return f"its own parameters are: {', '.join(self.found) or 'none'}"
+        return "near" if self.near else "others" if self.found else "none"
 
 
 @dataclass(eq=False)
@@ -66,16 +182,32 @@ class ParameterIgnored(Fault):
 
     name: str
     value: str
-    wanted: str
-    found: str
+    asked_hz: float
+    hz: float | None
+    """The rate that was measured; None: too few messages came to speak of one."""
+    count: int
+    seconds: float
+    """So many messages came in so long a time."""
     why = "A parameter lets others change the node without changing its code."
-    expected = "with `--ros-args -p {name}:={value}`: {wanted}"
-    measured = "{found}, as if the parameter were not there"
+    expected = "with `--ros-args -p {name}:={value}`: {asked_hz:g} messages a second"
+    measured = one_of(
+        rate="{hz:.2f} messages a second, as if the parameter were not there",
+        few=plural(
+            "count",
+            one="{count} message in {seconds:.1f} s, as if the parameter were not there",
+            other="{count} messages in {seconds:.1f} s, as if the parameter were not there",
+        ),
+    )
     hint = "Follow the parameter {name}: where is it read, and what is done with its value?"
     mend = (
         "Read it with self.get_parameter('{name}').value, after declare_parameter, and give that"
         " value to create_timer. Does main() say rclpy.init(args=args)?"
     )
+
+    @property
+    def which_measured(self) -> str:
+        """Whether there is a rate to speak of."""
+        return "few" if self.hz is None else "rate"
 
 
 @dataclass(eq=False)
@@ -86,10 +218,14 @@ class ParameterMisread(ParameterIgnored):
     why = "Who sets a parameter relies on what it means, and in which unit."
     hint = "The value of {name} is {about}. What does your code make of it?"
 
-    @property
-    def measured(self) -> str:  # type: ignore[override]
-        """What happened."""
-        return self.found
+    measured = one_of(
+        rate="{hz:.2f} messages a second",
+        few=plural(
+            "count",
+            one="{count} message in {seconds:.1f} s",
+            other="{count} messages in {seconds:.1f} s",
+        ),
+    )
 
 
 @dataclass(eq=False)
@@ -105,16 +241,23 @@ class NameStays(Fault):
         " it a list of its own, or does the node say use_global_arguments=False?"
     )
 
-    @property
-    def expected(self) -> str:
-        """The name that it was given."""
-        space, _, name = self.wanted.rpartition("/")
-        return f"with `-r __node:={name} -r __ns:={space}` the node is {self.wanted}"
+    expected = "with `-r __node:={name} -r __ns:={space}` the node is {wanted}"
+    measured = one_of(some="the nodes are: {found}", none="the nodes are: none")
 
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """The names that are there."""
-        return f"the nodes are: {', '.join(self.found) or 'none'}"
+        return "some" if self.found else "none"
+
+    @property
+    def name(self) -> str:
+        """The name that it was given."""
+        return self.wanted.rpartition("/")[2]
+
+    @property
+    def space(self) -> str:
+        """The namespace that it was given."""
+        return self.wanted.rpartition("/")[0]
 
 
 @dataclass(eq=False)
@@ -132,10 +275,12 @@ class TopicStays(Fault):
         " in create_publisher without the slash."
     )
 
+    measured = one_of(some="it publishes on {found}", none="it publishes on no topic")
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """The topic that it uses."""
-        return f"it publishes on {', '.join(self.found) or 'no topic'}"
+        return "some" if self.found else "none"
 
 
 @dataclass(eq=False)
@@ -143,23 +288,21 @@ class SetRefused(Fault):
     """A good value was refused."""
 
     node: str
-    asked: str
+    asked: Asked
     reason: str
     why = "Who sets a good value expects that it counts."
     expected = "{node} takes {asked}"
 
-    @property
-    def measured(self) -> str:
-        """The node's words."""
-        return f"it refuses: {self.reason}" if self.reason else "it refuses, and says no reason"
+    measured = one_of(reason="it refuses: {reason}", no_reason="it refuses, and says no reason")
+    hint = (
+        "Compare the limits in your code with the card: the limit itself is a good value. What"
+        " does the function of add_on_set_parameters_callback return for good values?"
+    )
 
     @property
-    def hint(self) -> str:
-        """What to compare."""
-        return (
-            "Compare the limits in your code with the card: the limit itself is a good value. What"
-            " does the function of add_on_set_parameters_callback return for good values?"
-        )
+    def which_measured(self) -> str:
+        """Whether the node said why."""
+        return "reason" if self.reason else "no_reason"
 
 
 @dataclass(eq=False)
@@ -168,13 +311,10 @@ class RefusedTogether(SetRefused):
 
     hint = "With which values does your function compare? Somebody may set both at once."
 
-    @property
-    def mend(self) -> str:
-        """What is compared with what."""
-        return (
-            "The function of add_on_set_parameters_callback gets all new values in one list."
-            " Compare them with each other; the old value counts only for what is not in the list."
-        )
+    mend = (
+        "The function of add_on_set_parameters_callback gets all new values in one list."
+        " Compare them with each other; the old value counts only for what is not in the list."
+    )
 
 
 @dataclass(eq=False)
@@ -203,7 +343,7 @@ class SetHasNoEffect(Fault):
     """A value was taken, and the parameter has another one."""
 
     node: str
-    asked: str
+    asked: Asked
     name: str
     found: str
     why = "Who sets a parameter and reads it back must find the value there."
@@ -227,8 +367,8 @@ class WrongValueTaken(Fault):
     """A value was taken that no parameter of the card can have."""
 
     node: str
-    asked: str
-    rule: str
+    asked: Asked
+    rule: Rule
     was_seen = True
     why = "A value that nobody checks reaches the motors."
     expected = "{node} refuses {asked} ({rule})"
@@ -237,6 +377,18 @@ class WrongValueTaken(Fault):
     mend = (
         "Give declare_parameter a third argument, a ParameterDescriptor with floating_point_range"
         " or integer_range (rcl_interfaces.msg)."
+    )
+
+
+@dataclass(eq=False)
+class NoNumberTaken(WrongValueTaken):
+    """NaN was taken for a number within limits."""
+
+    why = "With a limit of nan nothing is too fast: each comparison with nan is False."
+    hint = "Compare nan with some numbers in Python. Which of your comparisons lets it through?"
+    mend = (
+        "Ask what is right, and not what is wrong: least <= value <= most is False for nan. A"
+        " ParameterDescriptor with floating_point_range (rcl_interfaces.msg) asks so."
     )
 
 
@@ -278,9 +430,9 @@ class ReadOnlyChanged(WrongValueTaken):
 class ActsOtherwise(Fault):
     """The node does not do what its parameters say."""
 
-    when: str
-    wanted: str
-    found: str
+    when: AfterSet
+    wanted: SentencePart
+    found: Text
     why = "Who sets a parameter believes that the robot now does what it says."
     expected = "{when}: {wanted}"
     measured = "{found}"

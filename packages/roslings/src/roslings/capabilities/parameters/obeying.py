@@ -2,32 +2,38 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
 from roslings.capabilities.parameters import faults
-from roslings.capabilities.parameters.contract import ParameterContract
+from roslings.capabilities.parameters.contract import ParameterContract, ParameterWords
 from roslings.capabilities.parameters.demands import has_parameter
+from roslings.capabilities.parameters.reasons import ParametersUnknown
 from roslings.capabilities.parameters.record import ParametersSeen, ParameterTrial, Values
-from roslings.capabilities.topics.relay import Shown, Turn, turns
+from roslings.capabilities.topics.relay import RelayedValue, RelayTurn, turns
 from roslings.course import NodeContract, TopicContract
 from roslings.course.contract import Plain, as_typed
 from roslings.judge.demands import require_its_time, require_steady
-from roslings.judge.faults import Fault, NothingToJudge
-from roslings.judge.values import field_of, same, shown
+from roslings.judge.faults import Fault
+from roslings.judge.faults.moments import Awaited
+from roslings.judge.faults.sentences import Text
+from roslings.judge.values import Fields, field_of, same, shown
 from roslings.judge.views import Demand, ExperimentView
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 
 TYPES: Mapping[type, str] = {bool: "bool", int: "integer", float: "double", str: "string"}
 FIRST = "first"
 """The part of an experiment before anything was set."""
+NOT_FINITE = ("NaN", "Infinity", "-Infinity")
+"""How evidence writes numbers that JSON has none for."""
 BESIDE_PACE = 0.15
 """So far from the asked time the time of some messages may be, as a part of it."""
 
 FEWEST_BEATS = 4
-Wanted = Callable[[Values, dict[str, Any]], Any]
+Wanted = Callable[[Values, Fields], Plain | None]
 """What a node shows, from its parameters and what it was told; None where that is not known."""
 
 
@@ -35,10 +41,10 @@ Wanted = Callable[[Values, dict[str, Any]], Any]
 
 
 @dataclass(frozen=True)
-class Rule:
+class RefusalRule:
     """Why the card wants a request to be refused, and the fault where it is not."""
 
-    words: str
+    words: faults.Rule
     broken: type[faults.WrongValueTaken]
 
 
@@ -60,35 +66,57 @@ def take_what_its_card_allows(node: NodeContract, part: str) -> Demand[Experimen
 
 def trials_of(experiment: ExperimentView, part: str) -> list[ParameterTrial]:
     """The requests of a part. Raises NothingToJudge where there were none."""
-    found = [each for each in experiment.seen.part(ParametersSeen).trials if each.part == part]
+    found = [each for each in _trials(experiment) if each.part == part]
     if not found:
-        raise NothingToJudge("the parameters could not be set")
+        raise ParametersUnknown("not_set")
     return found
 
 
-def rule_against(node: NodeContract, trial: ParameterTrial) -> Rule | None:
+def _trials(experiment: ExperimentView) -> list[ParameterTrial]:
+    """All requests. In kept evidence NaN and the infinities are texts, and here numbers again."""
+    return [_with_numbers(each) for each in experiment.seen.part(ParametersSeen).trials]
+
+
+def _with_numbers(trial: ParameterTrial) -> ParameterTrial:
+    asked, before = _numbers_again(trial.asked), _numbers_again(trial.before)
+    after = _numbers_again(trial.after)
+    return trial.model_copy(update={"asked": asked, "before": before, "after": after})
+
+
+def _numbers_again(values: Mapping[str, Any]) -> dict[str, Any]:
+    """No grader asks for such a text."""
+    return {
+        name: float(value) if isinstance(value, str) and value in NOT_FINITE else value
+        for name, value in values.items()
+    }
+
+
+def rule_against(node: NodeContract, trial: ParameterTrial) -> RefusalRule | None:
     """The card's words that forbid a request; None where it is to be taken."""
-    alone = (_forbidden(node.parameter(name), value) for name, value in trial.asked.items())
-    return next(filter(None, alone), None) or _unfitting(node, {**trial.before, **trial.asked})
+    said = node.of(ParameterWords)
+    alone = (_forbidden(said.parameter(name), value) for name, value in trial.asked.items())
+    return next(filter(None, alone), None) or _unfitting(said, {**trial.before, **trial.asked})
 
 
-def _forbidden(parameter: ParameterContract, value: Plain) -> Rule | None:
+def _forbidden(parameter: ParameterContract, value: Plain) -> RefusalRule | None:
     name = parameter.name
     if parameter.read_only:
-        return Rule(f"{name} cannot be changed while the node runs", faults.ReadOnlyChanged)
+        return RefusalRule(faults.Rule("fixed", name), faults.ReadOnlyChanged)
     if TYPES[type(value)] != parameter.type:
-        return Rule(f"{name} is of type {parameter.type}", faults.WrongTypeTaken)
+        return RefusalRule(faults.Rule("type", name, parameter.type), faults.WrongTypeTaken)
     if not parameter.allows(value):
-        return Rule(f"{name} is {parameter.span}", faults.WrongValueTaken)
+        least, most = (float(limit or 0) for limit in (parameter.least, parameter.most))
+        broken = faults.NoNumberTaken if math.isnan(float(value)) else faults.WrongValueTaken
+        return RefusalRule(faults.Rule("span", name, least=least, most=most), broken)
     return None
 
 
-def _unfitting(node: NodeContract, values: Mapping[str, Any]) -> Rule | None:
-    for parameter in node.parameters:
+def _unfitting(said: ParameterWords, values: Mapping[str, Any]) -> RefusalRule | None:
+    for parameter in said.parameters:
         lower, upper = values.get(parameter.name), values.get(parameter.not_above or "")
         if lower is not None and upper is not None and lower > upper:
-            words = f"{parameter.name} is never above {parameter.not_above}"
-            return Rule(words, faults.RuleBroken)
+            words = faults.Rule("not_above", parameter.name, parameter.not_above or "")
+            return RefusalRule(words, faults.RuleBroken)
     return None
 
 
@@ -98,7 +126,7 @@ def _insist_on_its_parameters(
     """Raises NoParameter: a node refuses what it does not have, and that proves nothing."""
     if experiment.seen.part(ParametersSeen).names.get(trial.node):
         for name in trial.asked:
-            experiment.must(has_parameter(node, node.parameter(name)))
+            experiment.must(has_parameter(node, node.of(ParameterWords).parameter(name)))
 
 
 def _require_answer(experiment: ExperimentView, node: NodeContract, trial: ParameterTrial) -> None:
@@ -112,7 +140,7 @@ def _require_answer(experiment: ExperimentView, node: NodeContract, trial: Param
     raise faults.SetUnanswered(trial.node, asked_of(trial), "")
 
 
-def _insist_on_refusal(trial: ParameterTrial, rule: Rule) -> None:
+def _insist_on_refusal(trial: ParameterTrial, rule: RefusalRule) -> None:
     if trial.accepted:
         raise rule.broken(trial.node, asked_of(trial), rule.words)
     _insist_on(trial, trial.before, faults.RefusedAndChanged)
@@ -135,10 +163,10 @@ def _insist_on(
             raise kind(trial.node, asked_of(trial), name, shown(found))
 
 
-def asked_of(trial: ParameterTrial) -> str:
-    """What was asked for, in words."""
-    values = " and ".join(f"{name} = {_typed(value)}" for name, value in trial.asked.items())
-    return f"{values} at once" if trial.together else values
+def asked_of(trial: ParameterTrial) -> faults.Asked:
+    """What was asked for."""
+    values = tuple(f"{name} = {_typed(value)}" for name, value in trial.asked.items())
+    return faults.Asked(values, trial.together)
 
 
 def _typed(value: Plain) -> str:
@@ -148,7 +176,7 @@ def _typed(value: Plain) -> str:
 # --- what it does then -------------------------------------------------------------------------
 
 
-def act_by_its_values(place: Shown, part: str, wanted: Wanted) -> Demand[ExperimentView]:
+def act_by_its_values(place: RelayedValue, part: str, wanted: Wanted) -> Demand[ExperimentView]:
     """After each request of this part, the node does what its parameters, as it says them, ask for.
 
     So a value that was wrongly taken, or refused, is the fault of another demand.
@@ -162,18 +190,18 @@ def act_by_its_values(place: Shown, part: str, wanted: Wanted) -> Demand[Experim
                 judged += value is not None
                 _insist_on_deed(experiment, place, turn, trial, value)
         if not judged:
-            raise NothingToJudge(f"{place.node.executable} could not be told anything then")
+            raise ParametersUnknown("not_told", place.node.executable)
 
     return demand
 
 
 def _turns_with_values(
     experiment: ExperimentView, topic: TopicContract
-) -> Iterator[tuple[Turn, ParameterTrial | None, Values]]:
+) -> Iterator[tuple[RelayTurn, ParameterTrial | None, Values]]:
     """What the node was told, the last request before that, and its parameters then."""
-    trials = experiment.seen.part(ParametersSeen).trials
+    trials = _trials(experiment)
     if not trials:
-        raise NothingToJudge("nobody knows what its parameters were")
+        raise ParametersUnknown("before")
     for turn in turns(experiment, topic):
         before = [each for each in trials if each.asked_ns < turn.spoken.sent_ns]
         last = before[-1] if before else None
@@ -181,24 +209,27 @@ def _turns_with_values(
 
 
 def _insist_on_deed(
-    experiment: ExperimentView, place: Shown, turn: Turn, trial: ParameterTrial | None, wanted: Any
+    experiment: ExperimentView,
+    place: RelayedValue,
+    turn: RelayTurn,
+    trial: ParameterTrial | None,
+    wanted: Plain | None,
 ) -> None:
     found = field_of(turn.message.content if turn.message else None, place.name)
     if wanted is None or same(found, wanted, place.topic.numbers_within):
         return
     if not turn.settled:
         require_steady(experiment.seen.stall_s)
-    heard = f"{turn.heard(place.heard, False)} gives"
-    words = f"{heard} {place.name} {shown(wanted)} on {place.topic.topic}"
-    raise _deed_fault(trial, words, shown(found) if turn.message else "no message came")
+    heard = turn.heard(place.heard, False)
+    deed = faults.Deed(heard, place.name, shown(wanted), place.topic.topic)
+    raise _deed_fault(trial, deed, shown(found) if turn.message else faults.NoMessageCame())
 
 
-def _deed_fault(trial: ParameterTrial | None, wanted: str, found: str) -> Fault:
+def _deed_fault(trial: ParameterTrial | None, wanted: faults.Deed, found: Text) -> Fault:
     if trial is None:
-        return faults.ActsOtherwise("with the defaults", wanted, found)
-    if trial.accepted:
-        return faults.ActsOtherwise(f"after {asked_of(trial)} was set", wanted, found)
-    return faults.ActsOnRefused(f"after {asked_of(trial)} was refused", wanted, found)
+        return faults.ActsOtherwise(faults.AfterSet(None), wanted, found)
+    when = faults.AfterSet(asked_of(trial), trial.accepted)
+    return (faults.ActsOtherwise if trial.accepted else faults.ActsOnRefused)(when, wanted, found)
 
 
 def beat_by_its_value(topic: TopicContract, name: str, part: str) -> Demand[ExperimentView]:
@@ -211,7 +242,7 @@ def beat_by_its_value(topic: TopicContract, name: str, part: str) -> Demand[Expe
             if trial.accepted
         ]
         if not any(judged):
-            raise NothingToJudge("no new value was taken")
+            raise ParametersUnknown("not_taken")
 
     return demand
 
@@ -240,10 +271,10 @@ def _insist_on_pace(
     found_s = sum(gaps) / len(gaps) if len(gaps) >= FEWEST_BEATS else None
     if found_s is None or abs(found_s * beat - 1) > BESIDE_PACE:
         late_s = None if found_s is None else abs(found_s - 1 / beat) * len(gaps)
-        require_its_time(experiment.seen, trial.part, late_s, f"what {topic.topic} says")
-        found = "hardly any message came" if found_s is None else f"{1 / found_s:.1f} a second"
-        wanted = f"{beat:g} messages a second on {topic.topic}"
-        raise faults.ActsOtherwise(f"after {asked_of(trial)} was set", wanted, found)
+        require_its_time(experiment.seen, trial.part, late_s, Awaited("topic", topic.topic))
+        found = faults.PaceFound(None if found_s is None else 1 / found_s)
+        when = faults.AfterSet(asked_of(trial))
+        raise faults.ActsOtherwise(when, faults.Pace(beat, topic.topic), found)
     return True
 
 

@@ -10,13 +10,14 @@ from typing import Any
 from ros2_on_pip.near_names import nearest
 from roslings.arena import Process
 from roslings.capabilities.parameters.calling import message_of, value_of
+from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.parameters.record import (
     ParametersRead,
     ParametersSeen,
     ParameterTrial,
     Values,
 )
-from roslings.capabilities.services.calling import Call, Caller
+from roslings.capabilities.services.calling import Caller, ServiceCall
 from roslings.course import NodeContract
 from roslings.course.contract import Plain
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
@@ -87,13 +88,13 @@ class Setter:
             return None
         return dict(zip(self._names, map(value_of, response["values"]), strict=False))
 
-    def _ask(self, service: str, request: dict[str, Any]) -> Call:
+    def _ask(self, service: str, request: dict[str, Any]) -> ServiceCall:
         call = self._callers[service].send(request)
         call.wait(ANSWERS_WITHIN_S, lambda: self._process.alive)
         return call
 
 
-def _write_answer(tried: ParameterTrial, call: Call, together: bool) -> None:
+def _write_answer(tried: ParameterTrial, call: ServiceCall, together: bool) -> None:
     response = call.seen.response or {}
     result = response["result"] if together else response["results"][0]
     tried.answered_ns = call.seen.answered_ns
@@ -115,7 +116,7 @@ def setting(scene: Scene, process: Process, node: NodeContract) -> Iterator[Sett
             for name, type_ in SERVICES.items()
             if near
         }
-        names = [parameter.name for parameter in node.parameters]
+        names = [parameter.name for parameter in node.of(ParameterWords).parameters]
         ready = scene.until(
             lambda: all(caller.ready for caller in callers.values()), FIRST_MESSAGE_WITHIN_S
         )
@@ -157,7 +158,7 @@ def _answers(
     return found
 
 
-def _answers_now(scene: Scene, calls: Mapping[str, Call]) -> dict[str, dict[str, Any]]:
+def _answers_now(scene: Scene, calls: Mapping[str, ServiceCall]) -> dict[str, dict[str, Any]]:
     for call in calls.values():
         call.wait(ANSWERS_WITHIN_S, scene.arena.all_alive)
     return {node: call.seen.response for node, call in calls.items() if call.seen.response}

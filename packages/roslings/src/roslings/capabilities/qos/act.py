@@ -8,22 +8,25 @@ from typing import Any
 
 from roslings.capabilities.qos.record import JoinSeen, QosSeen
 from roslings.course import TopicContract
+from roslings.course.contract import Plain
 from roslings.evidence import Endpoint
 from roslings.experiment.missed import publishes
 from roslings.experiment.scene import Scene
-from roslings.matching import nearest_endpoint
 from roslings.probe.content import message_class, to_plain
-from roslings.probe.events import no_ear_events
+from roslings.probe.events import no_subscription_events
+from roslings.seen.matching import nearest_endpoint
 
 SHOWS_WITHIN_S, QUIET_S = 3.0, 0.4
 """For the first message that was kept, and for all others."""
 
 
-def come_late(scene: Scene, topic: TopicContract, after: str, wanted: Any, said: int) -> None:
+def come_late(
+    scene: Scene, topic: TopicContract, after: str, wanted: Plain | None, said: int
+) -> None:
     """Subscribe now to a latched topic, and listen to what is there already.
 
-    `after` says in words what was done before, `wanted` what the field `data` of the last message
-    should be, and `said` how many messages there should be so far.
+    `after` says in words what was done before. `wanted` is what the field `data` of the last
+    message should be. `said` is how many messages there should be so far.
 
     >>> come_late(scene, E_STOP, "the start", wanted=True, said=1)
     """
@@ -48,15 +51,17 @@ def _late(scene: Scene, topic: str, type_: str, heard: list[Any]) -> Iterator[An
     """A subscription that asks for what was said before it came."""
     from rclpy.qos import DurabilityPolicy, QoSProfile
 
-    eye, kind = scene.probe.eye, message_class(type_)
+    probe_node, kind = scene.probe.node, message_class(type_)
     kept = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
     def hear(message: Any) -> None:
         heard.append(to_plain(message).get("data"))
         scene.probe.notify()
 
-    subscription = eye.create_subscription(kind, topic, hear, kept, event_callbacks=no_ear_events())
+    subscription = probe_node.create_subscription(
+        kind, topic, hear, kept, event_callbacks=no_subscription_events()
+    )
     try:
         yield subscription
     finally:
-        eye.destroy_subscription(subscription)
+        probe_node.destroy_subscription(subscription)

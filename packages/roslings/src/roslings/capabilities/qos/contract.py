@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected
-
-if TYPE_CHECKING:
-    from roslings.course import NodeContract
+from roslings.course.contract import Contract, Expected, NodeWords
 
 Liveliness = Literal["automatic", "manual_by_topic"]
 TOPIC = r"^/[A-Za-z_][A-Za-z0-9_/]*$"
@@ -45,14 +42,14 @@ class AskContract(TimesContract):
     """What one subscription of a node wants to be promised."""
 
 
-class NodeWords(Contract):
+class QosWords(NodeWords):
     """What a card may say of a node."""
 
     offers: tuple[OfferContract, ...] = ()
     asks: tuple[AskContract, ...] = ()
 
 
-def rows(node: NodeContract) -> Iterable[Row]:
+def rows(node: QosWords) -> Iterable[Row]:
     """What each side promises or asks for."""
     for offered in node.offers:
         yield from _times_rows(offered, "offers on")
@@ -76,4 +73,4 @@ def _messages(count: int) -> str:
     return "the last message" if count == 1 else f"the last {count} messages"
 
 
-WORDS = Words(node=NodeWords, interface=rows)
+WORDS = Words(node=QosWords, interface=rows)

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
 
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.qos import faults
 from roslings.capabilities.qos.contract import AskContract, OfferContract, TimesContract
+from roslings.capabilities.qos.reasons import NobodyCameLate
 from roslings.capabilities.qos.record import JoinSeen, QosSeen
 from roslings.course import TopicContract
 from roslings.course.contract import as_typed
 from roslings.course.files import written
 from roslings.judge.demands import require_steady
-from roslings.judge.faults import EndpointKind, NothingToJudge, NoTopic
+from roslings.judge.faults import EndpointKind, NoTopic
+from roslings.judge.faults.moments import one_after_the_other
+from roslings.judge.faults.sentences import Text
 from roslings.judge.views import Demand, ExperimentView
 
 SAME_NS = 1_000_000
-DOES = {"publisher": "publishes on", "subscription": "subscribes to"}
 
 
 # --- what is offered and asked for -------------------------------------------------------------
@@ -47,14 +48,14 @@ def _times(
             if end.kind == kind and end.topic == contract.topic
         ]
         if not ends:
-            raise NoTopic(contract.topic, DOES[kind])
+            raise NoTopic(contract.topic, kind)
         qos = ends[0].qos
         if contract.lease_s and qos.liveliness != contract.liveliness:
             raise faults.OtherLiveliness(contract.topic, kind, contract.liveliness, qos.liveliness)
         found = {"deadline": qos.deadline_ns, "lease": qos.lease_ns, "lifespan": qos.lifespan_ns}
         for word, limit_s in wanted.items():
             if limit_s and not _is_same(found[word], limit_s):
-                raise faults.OtherTime(contract.topic, kind, word, limit_s, _shown(found[word]))
+                raise faults.OtherTime(contract.topic, kind, word, limit_s, _in_s(found[word]))
 
     return demand
 
@@ -63,8 +64,8 @@ def _is_same(found_ns: int | None, wanted_s: float) -> bool:
     return found_ns is not None and abs(found_ns - wanted_s * NS_PER_S) < SAME_NS
 
 
-def _shown(found_ns: int | None) -> str:
-    return "none" if found_ns is None else f"one of {found_ns / NS_PER_S:g} s"
+def _in_s(found_ns: int | None) -> float | None:
+    return None if found_ns is None else found_ns / NS_PER_S
 
 
 # --- a latched topic ---------------------------------------------------------------------------
@@ -77,7 +78,7 @@ def keep_for_late_joiners(contract: OfferContract) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         joins = experiment.seen.part(QosSeen).joins
         if not joins:
-            raise NothingToJudge(f"nobody could come late to {contract.topic}")
+            raise NobodyCameLate("nobody", contract.topic)
         for join in joins:
             _judge_join(experiment, contract.topic, join, keeps)
 
@@ -100,7 +101,7 @@ def tell_late_joiners_the_truth(topic: TopicContract) -> Demand[ExperimentView]:
     def demand(experiment: ExperimentView) -> None:
         joins = [join for join in experiment.seen.part(QosSeen).joins if join.heard]
         if not joins:
-            raise NothingToJudge(f"no late joiner got anything on {topic.topic}")
+            raise NobodyCameLate("nothing", topic.topic)
         for join in joins:
             if join.heard[-1] != join.wanted:
                 words = (join.after, as_typed(join.wanted), as_typed(join.heard[-1]))
@@ -109,6 +110,6 @@ def tell_late_joiners_the_truth(topic: TopicContract) -> Demand[ExperimentView]:
     return demand
 
 
-def values_told(values: Iterable[Any]) -> str:
+def values_told(values: Iterable[object]) -> Text:
     """One after the other."""
-    return ", then ".join(map(as_typed, values)) or "nothing"
+    return one_after_the_other(map(as_typed, values))

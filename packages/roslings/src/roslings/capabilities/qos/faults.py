@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from roslings.judge.faults import CALLS, EndpointKind, Fault
+from roslings.judge.faults.sentences import Text, one_of, plural
 
 # --- what is offered and asked for -------------------------------------------------------------
 
@@ -24,23 +25,26 @@ class OtherPromise(Fault, ABC):
     hint = "Compare what is set with the card: `ros2 topic info -v {topic}`."
 
     @property
-    def verb(self) -> str:
-        """What a node does with it."""
-        return "offers" if self.kind == "publisher" else "asks for"
-
-    @property
     @abstractmethod
     def advice(self) -> str:
         """The word of QoSProfile, as Python for rclpy."""
 
     @property
-    def mend(self) -> str:
-        """Which profile gets it."""
-        return (
-            f"Give the QoSProfile of {CALLS[self.kind]}(...) for {self.topic} the word"
-            f" {self.advice}, from {self.source}. Where a number stands in its place, write a"
-            f" QoSProfile. `ros2 topic info -v {self.topic}` shows what is set."
-        )
+    def call(self) -> str:
+        """Where the code gives it."""
+        return CALLS[self.kind]
+
+    @property
+    def which_expected(self) -> str:
+        """What a node does with it: a publisher offers, a subscription asks for."""
+        return self.kind
+
+    mend = (
+        "Give the QoSProfile of {call}(...) for {topic} the word {advice}, from {source}. Where a"
+        " number stands in its place, write a QoSProfile. `ros2 topic info -v {topic}` shows what"
+        " is"
+        " set."
+    )
 
 
 @dataclass(eq=False)
@@ -51,10 +55,24 @@ class OtherTime(OtherPromise):
 
     word: str
     wanted_s: float
-    found: str
+    found_s: float | None
+    """None: it has none."""
     why = "The middleware watches these times, and nobody else does: a wrong one is not noticed."
-    expected = "on {topic} the node {verb} a {word} of {wanted_s:g} s"
-    measured = "it {verb} {found}"
+    expected = one_of(
+        publisher="on {topic} the node offers a {word} of {wanted_s:g} s",
+        subscription="on {topic} the node asks for a {word} of {wanted_s:g} s",
+    )
+    measured = one_of(
+        publisher="it offers one of {found_s:g} s",
+        publisher_none="it offers none",
+        subscription="it asks for one of {found_s:g} s",
+        subscription_none="it asks for none",
+    )
+
+    @property
+    def which_measured(self) -> str:
+        """Whether it has any."""
+        return f"{self.kind}_none" if self.found_s is None else self.kind
 
     @property
     def advice(self) -> str:
@@ -69,20 +87,28 @@ class OtherLiveliness(OtherPromise):
 
     wanted: str
     found: str
-    expected = "on {topic} the node {verb} the liveliness {wanted}"
-    measured = "it {verb} {found}"
+    expected = one_of(
+        publisher="on {topic} the node offers the liveliness {wanted}",
+        subscription="on {topic} the node asks for the liveliness {wanted}",
+    )
+    measured = one_of(publisher="it offers {found}", subscription="it asks for {found}")
+    why = one_of(
+        automatic="With manual_by_topic a node must give each sign of life itself; who forgets it"
+        " is"
+        " dead.",
+        manual="With automatic the middleware gives signs of life also for a node that does"
+        " nothing.",
+    )
 
     @property
-    def why(self) -> str:  # type: ignore[override]
-        """What is bad about the other way."""
-        if self.wanted == "automatic":
-            return (
-                "With manual_by_topic a node must give each sign of life itself; who forgets it is"
-                " dead."
-            )
-        return (
-            "With automatic the middleware gives signs of life also for a node that does nothing."
-        )
+    def which_measured(self) -> str:
+        """What a node does with it."""
+        return self.kind
+
+    @property
+    def which_why(self) -> str:
+        """What is asked for: what is bad about the other one."""
+        return "automatic" if self.wanted == "automatic" else "manual"
 
     @property
     def advice(self) -> str:
@@ -121,9 +147,13 @@ class OtherCountForLateJoiners(NothingForLateJoiners):
     """A late joiner gets more, or fewer, messages than the card says."""
 
     wanted: int
-    found: str
+    found: Text
     why = "What is old is over. Who gets all of it obeys for a moment what holds no more."
-    expected = "who subscribes to {topic} after {after} gets {wanted} message(s)"
+    expected = plural(
+        "wanted",
+        one="who subscribes to {topic} after {after} gets {wanted} message",
+        other="who subscribes to {topic} after {after} gets {wanted} messages",
+    )
     measured = "it gets {found}"
     hint = (
         "How many of the last messages are kept? Look at the QoS of create_publisher(...) for"

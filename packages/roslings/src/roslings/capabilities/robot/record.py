@@ -24,7 +24,7 @@ class CommandSeen(Record):
     turn_rad_s: float
 
 
-class DriveSeen(Record):
+class RobotDriveSeen(Record):
     """A drive: how a robot moved, and what it was told."""
 
     path: Columns[PoseSeen] = Field(default_factory=list)
@@ -44,5 +44,5 @@ class RobotSeen(PartSeen):
     NAME = "robot"
     REQUESTS = ("drive",)
 
-    drive: DriveSeen | None = Field(default=None, description="The robot, where there was one")
+    drive: RobotDriveSeen | None = Field(default=None, description="The robot, where there was one")
     ways: Columns[WaySeen] = Field(default_factory=list)

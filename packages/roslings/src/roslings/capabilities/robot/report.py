@@ -6,9 +6,11 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from ros2_on_pip.language import said
 from ros2_on_pip.markup import Markup, joined, tag
 from roslings.capabilities.robot.record import RobotSeen, WaySeen
 from roslings.evidence import Evidence, ExperimentSeen, MessageSeen
+from roslings.report.html.timeline_svg import in_experiment
 
 ODOMETRY = "nav_msgs/msg/Odometry"
 MOST_POINTS = 400
@@ -83,13 +85,21 @@ def way_picture(ways: Sequence[WaySeen]) -> Markup:
 
 def describe(ways: Sequence[WaySeen]) -> str:
     """The picture in sentences: its text alternative."""
+    long = "{name}: {length_m:.2f} m long, ends at {end}."
     sentences = [
-        f"{_sentence(_name(way))}: {_length_m(way):.2f} m long, ends at {_end(way)}."
+        said(
+            "page.way.long",
+            long,
+            name=_sentence(_name(way)),
+            length_m=_length_m(way),
+            end=_end(way),
+        )
         for way in ways
     ]
     if len(ways) > 1:
         off_m = math.dist(ways[0].points_m[-1], ways[1].points_m[-1])
-        sentences.append(f"At the end the two are {off_m:.2f} m apart.")
+        apart = "At the end the two are {off_m:.2f} m apart."
+        sentences.append(said("page.way.apart", apart, off_m=off_m))
     return " ".join(sentences)
 
 
@@ -111,7 +121,9 @@ def _kinds(ways: Sequence[WaySeen]) -> list[str]:
 
 
 def _name(way: WaySeen) -> str:
-    return f"what {way.name} told" if way.name.startswith("/") else way.name
+    if way.name.startswith("/"):
+        return said("page.way.told", "what {topic} told", topic=way.name)
+    return way.name
 
 
 def _sentence(words: str) -> str:
@@ -217,12 +229,13 @@ def ways(evidence: Evidence) -> Iterator[Markup]:
     figures = [_ways(seen) for seen in evidence.experiments.values() if ways_of(seen)]
     if figures:
         words = "A ring is where a line begins, a dot is where it ends."
-        note = tag("p", words, class_="about")
-        yield tag("section", tag("h2", "The way that it went"), note, *figures)
+        note = tag("p", said("page.way.about", words), class_="about")
+        title = said("page.way", "The way that it went")
+        yield tag("section", tag("h2", title), note, *figures)
 
 
 def _ways(seen: ExperimentSeen) -> Markup:
     found = ways_of(seen)
-    heading = tag("h3", f"in {seen.name}")
+    heading = tag("h3", in_experiment(seen.name))
     caption = tag("figcaption", describe(found))
     return tag("figure", heading, way_picture(found), legend(found), caption)

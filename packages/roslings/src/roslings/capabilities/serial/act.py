@@ -25,7 +25,7 @@ from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
 from roslings.experiment.start import PLAIN, Start
 from roslings.experiment.timing import accounting, timing
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 from roslings_rover.board import Board, Chunk, Mega
 from roslings_rover.board.attached import AttachedBoard
 from roslings_rover.board.wire import LATENCY_S, Wire
@@ -66,8 +66,8 @@ def board_beside(
 ) -> Iterator[Cable]:
     """A rover's board in real time, on an empty floor; the node finds it by a parameter.
 
-    With `bits_s`, the speed of its cable, lines arrive in pieces, cut anywhere, and the rest of a
-    line so late that a node reads in between. Where the scene has the port of a real board, that
+    With `bits_s`, the speed of its cable, lines arrive in pieces, cut anywhere. The rest of a line
+    comes so late that a node reads in between. Where the scene has the port of a real board, that
     one takes its place.
     Raises DeviceTrouble when a board ends that should have lived.
 
@@ -109,7 +109,7 @@ def _chip(port: Path | None, body: Body) -> Iterator[Mega | AttachedBoard]:
 
 
 class Cable:
-    """The board, its cable, and the voice that tells the node where to drive."""
+    """The board, its cable, and the publisher that tells the node where to drive."""
 
     def __init__(
         self, scene: Scene, board: Board, chip: Mega | AttachedBoard, parameter: str
@@ -136,21 +136,21 @@ class Cable:
         for_s: float = 1.5,
     ) -> None:
         """Say one motion again and again; marks how things stand at the end of it."""
-        ear = self._ear(topic)
-        if ear is None:
+        subscription = self._subscription(topic)
+        if subscription is None:
             return
         with timing(self._scene, part):
-            self.say(ear, forward_m_s, turn_rad_s)
+            self.say(subscription, forward_m_s, turn_rad_s)
             since_s = self._now_s
-            while self._now_s < since_s + for_s and self.say(ear, forward_m_s, turn_rad_s):
+            while self._now_s < since_s + for_s and self.say(subscription, forward_m_s, turn_rad_s):
                 self._scene.until(self._goes_on, SAY_EVERY_S)
             self.mark(part, since_s)
 
     def flood(self, topic: TopicContract, motions: Sequence[tuple[float, float]]) -> None:
         """Say many motions without a pause between them."""
-        ear = self._ear(topic)
+        subscription = self._subscription(topic)
         for forward_m_s, turn_rad_s in motions:
-            if ear is None or not self.say(ear, forward_m_s, turn_rad_s):
+            if subscription is None or not self.say(subscription, forward_m_s, turn_rad_s):
                 return
 
     def rest(self, part: str, counted: TopicContract) -> None:
@@ -224,24 +224,24 @@ class Cable:
             )
         )
 
-    def say(self, ear: Endpoint, forward_m_s: float, turn_rad_s: float) -> bool:
+    def say(self, subscription: Endpoint, forward_m_s: float, turn_rad_s: float) -> bool:
         """Say one motion; whether somebody was there to hear it. A dead node is not waited for.
 
-        >>> cable.say(ear, 0.2, 0.0)
+        >>> cable.say(subscription, 0.2, 0.0)
         """
         if not self._lives():
             return False
         content = {"linear": {"x": forward_m_s}, "angular": {"z": turn_rad_s}}
-        return self._scene.probe.say(ear, content, FIRST_MESSAGE_WITHIN_S).matched
+        return self._scene.probe.say(subscription, content, FIRST_MESSAGE_WITHIN_S).matched
 
     def say_nonsense(self, part: str, topic: TopicContract) -> None:
         """Say motions that are no numbers, one after the other, and give each its time to act."""
-        ear = self._ear(topic)
-        if ear is None or not self._lives():
+        subscription = self._subscription(topic)
+        if subscription is None or not self._lives():
             return
         self.mark(part)
         for forward_m_s, turn_rad_s in NONSENSE:
-            if self.say(ear, forward_m_s, turn_rad_s):
+            if self.say(subscription, forward_m_s, turn_rad_s):
                 self.live(for_s=ACTS_WITHIN_S)
         self.mark(f"{part}, over")
 
@@ -293,7 +293,7 @@ class Cable:
         found = nearest_endpoint(self._scene.seen.graph, "publisher", topic.topic, topic.type)
         return self._scene.probe.count(found.topic) if found else 0
 
-    def _ear(self, topic: TopicContract) -> Endpoint | None:
+    def _subscription(self, topic: TopicContract) -> Endpoint | None:
         def find() -> Endpoint | None:
             graph = self._scene.seen.graph
             return nearest_endpoint(graph, "subscription", topic.topic, topic.type)

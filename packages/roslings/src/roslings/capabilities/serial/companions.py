@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 
 from roslings.arena import Arena
+from roslings.capabilities.parameters.contract import ParameterWords
+from roslings.capabilities.serial.contract import SerialWords
 from roslings.course import Card, NodeContract
 
 
@@ -13,7 +15,8 @@ def board_for(
     node: NodeContract, card: Card, arena: Arena, running: ExitStack
 ) -> Mapping[str, str]:
     """A rover's board in real time, on an empty floor, for a node with a parameter `port`."""
-    if not card.board or "port" not in {parameter.name for parameter in node.parameters}:
+    names = {parameter.name for parameter in node.of(ParameterWords).parameters}
+    if not card.of(SerialWords).board or "port" not in names:
         return {}
     from roslings.capabilities.serial.act import FLOOR, PORT
     from roslings_rover.board import Board, Mega

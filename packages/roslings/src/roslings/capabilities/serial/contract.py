@@ -7,10 +7,10 @@ from typing import Annotated
 from pydantic import Field
 
 from roslings.capability import Words
-from roslings.course.contract import Contract, Prose
+from roslings.course.contract import CardWords, Prose
 
 
-class SerialWords(Contract):
+class SerialWords(CardWords):
     """What a card may say of the package."""
 
     board: Annotated[bool, Prose] = Field(

@@ -9,15 +9,16 @@ from typing import Any
 
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.serial import faults as cable_faults
+from roslings.capabilities.serial.reasons import BoardUnused, LinesLost, SlowBoard
 from roslings.capabilities.serial.record import BoardMark, BoardSeen, CableLine, SerialSeen
 from roslings.capabilities.topics.faults.messages import NoMessages
 from roslings.capabilities.topics.faults.relay import WrongField
 from roslings.course import TopicContract
 from roslings.evidence import MessageSeen, TopicSeen
-from roslings.judge import faults
 from roslings.judge.demands import require_its_time, require_steady
+from roslings.judge.faults.moments import Awaited, Nothing
 from roslings.judge.views import Demand, ExperimentView, TopicView
-from roslings_rover.models.board_lines import BadLine, Drive, Speeds, unframed
+from roslings_rover.models.board_lines import BadLine, DriveCommand, Speeds, checksum, unframed
 from roslings_rover.models.differential_drive import Body, Motion, Wheels
 
 MOST_LINES_LOST = 0.15
@@ -60,7 +61,7 @@ def hold_its_fields(contract: TopicContract) -> Demand[TopicView]:
             for field, wanted in contract.fields.items():
                 found = _written(_field(message, field))
                 if found != str(wanted):
-                    raise WrongField(topic.name, field, str(wanted), found or "(empty)")
+                    raise WrongField(topic.name, field, str(wanted), found or Nothing("text"))
 
     return demand
 
@@ -89,7 +90,7 @@ def tell_the_speeds(experiment: ExperimentView) -> Demand[TopicView]:
             if not _is_among(left, right, told):
                 raise _speed_fault(left, right, told)
         if not any(abs(left) > 1 for left, _ in _velocities(topic)):
-            raise faults.NothingToJudge("the wheels did not turn")
+            raise BoardUnused("wheels")
 
     return demand
 
@@ -103,7 +104,7 @@ def tell_nothing_else(experiment: ExperimentView) -> Demand[TopicView]:
             if not _is_among(left, right, told):
                 raise cable_faults.BadLineUsed(left, right)
         if not _went_on(experiment, topic, "good again"):
-            raise cable_faults.SilentAfter("the noise on the cable", topic.name)
+            raise cable_faults.SilentAfter(cable_faults.Trouble("noise"), topic.name)
 
     return demand
 
@@ -113,7 +114,8 @@ def outlast_silence(experiment: ExperimentView, part: str, silence_s: float) -> 
 
     def demand(topic: TopicView) -> None:
         if not _went_on(experiment, topic, part):
-            raise cable_faults.GaveUpInSilence(f"{silence_s:g} s of silence", topic.name)
+            silence = cable_faults.Trouble("silence", silence_s)
+            raise cable_faults.GaveUpInSilence(silence, topic.name)
 
     return demand
 
@@ -124,7 +126,7 @@ def come_back(part: str, after: str, topic: TopicContract) -> Demand[ExperimentV
     def demand(experiment: ExperimentView) -> None:
         if not any(mark.part == part for mark in _board(experiment).marks):
             require_steady(experiment.seen.stall_s)
-            require_its_time(experiment.seen, part, None, "the first message")
+            require_its_time(experiment.seen, part, None, Awaited("first_message"))
             raise cable_faults.SilentAfter(after, topic.topic)
 
     return demand
@@ -139,10 +141,10 @@ def know_the_way(experiment: ExperimentView, before: str, after: str) -> Demand[
     def demand(topic: TopicView) -> None:
         marks = {mark.part: mark for mark in _board(experiment).marks}
         if before not in marks or after not in marks:
-            raise faults.NothingToJudge("the rover was not driven so far")
+            raise BoardUnused("not_driven")
         really = _moved(_true_place(marks[before]), _true_place(marks[after]))
         if math.hypot(really.x_m, really.y_m) < 0.02 and abs(really.turn_rad) < 0.1:
-            raise faults.NothingToJudge("the rover did not move")
+            raise BoardUnused("stood")
         told = _moved(_told_place(topic, marks[before]), _told_place(topic, marks[after]))
         moving = any(m.left_pwm or m.right_pwm for m in (marks[before], marks[after]))
         fault = _difference(after, really, told, LAG_S if moving else 0.0)
@@ -163,7 +165,7 @@ def tell_the_motion(experiment: ExperimentView, part: str, body: Body) -> Demand
         really = _motions_at(experiment, mark, body)
         if not before or not any(abs(each.forward_m_s) > MOTION_WITHIN_M_S for each in really):
             _require_its_command(experiment, part, _runs)
-            raise faults.NothingToJudge("the wheels did not turn")
+            raise BoardUnused("wheels")
         twist = before[-1].content["twist"]["twist"]
         told = Motion(_number(twist["linear"]["x"]), _number(twist["angular"]["z"]))
         if not any(_is_motion(told, each) for each in really):
@@ -193,7 +195,7 @@ def _is_motion(told: Motion, really: Motion) -> bool:
 
 
 @dataclass(frozen=True)
-class Place:
+class FloorPose:
     """A place on the floor, or a way seen from where it began."""
 
     x_m: float
@@ -201,16 +203,16 @@ class Place:
     turn_rad: float
 
 
-def _moved(begin: Place, end: Place) -> Place:
+def _moved(begin: FloorPose, end: FloorPose) -> FloorPose:
     """The way, seen by the rover at its beginning: earlier mistakes do not count again."""
     dx, dy = end.x_m - begin.x_m, end.y_m - begin.y_m
     cos, sin = math.cos(begin.turn_rad), math.sin(begin.turn_rad)
     turn = math.remainder(end.turn_rad - begin.turn_rad, 2 * math.pi)
-    return Place(dx * cos + dy * sin, dy * cos - dx * sin, turn)
+    return FloorPose(dx * cos + dy * sin, dy * cos - dx * sin, turn)
 
 
 def _difference(
-    part: str, really: Place, told: Place, lag_s: float
+    part: str, really: FloorPose, told: FloorPose, lag_s: float
 ) -> cable_faults.WrongOdometry | None:
     """What is said of a rover that moves may be late by `lag_s`."""
     off_m = math.hypot(told.x_m - really.x_m, told.y_m - really.y_m)
@@ -226,25 +228,22 @@ def _difference(
 def _require_whole(board: BoardSeen) -> None:
     """Before a way is held against the student: no line was lost between board and node."""
     if board.lost_bytes:
-        raise faults.Inconclusive(
-            "this computer was too busy to carry every line of the board to your node;"
-            " close other programs and check again"
-        )
+        raise LinesLost
 
 
-def _true_place(mark: BoardMark) -> Place:
-    return Place(mark.x_m, mark.y_m, mark.heading_rad)
+def _true_place(mark: BoardMark) -> FloorPose:
+    return FloorPose(mark.x_m, mark.y_m, mark.heading_rad)
 
 
-def _told_place(topic: TopicView, mark: BoardMark) -> Place:
+def _told_place(topic: TopicView, mark: BoardMark) -> FloorPose:
     """The last place that was published before a mark; the origin where none was."""
     before = [m for m in topic.messages if m.arrival_ns <= mark.arrival_ns and m.content]
     if not before:
-        return Place(0.0, 0.0, 0.0)
+        return FloorPose(0.0, 0.0, 0.0)
     pose = before[-1].content["pose"]["pose"]
     at, turned = pose["position"], pose["orientation"]
     z, w = _number(turned["z"]), _number(turned["w"])
-    return Place(_number(at["x"]), _number(at["y"]), 2 * math.atan2(z, w))
+    return FloorPose(_number(at["x"]), _number(at["y"]), 2 * math.atan2(z, w))
 
 
 # --- what the node makes of commands -----------------------------------------------------------
@@ -319,7 +318,7 @@ def _alike(got: tuple[int, int], wanted: tuple[int, int]) -> bool:
 
 
 def _require_its_command(
-    experiment: ExperimentView, part: str, follows: Callable[[Drive], bool]
+    experiment: ExperimentView, part: str, follows: Callable[[DriveCommand], bool]
 ) -> None:
     """Before the motors are held against the student: this computer did not hold it up.
 
@@ -327,11 +326,11 @@ def _require_its_command(
     """
     require_steady(experiment.seen.stall_s)
     late_s = _without_command_s(experiment, _mark(experiment, part), follows) - BOARD_STOPS_S
-    require_its_time(experiment.seen, part, max(LATE_COMMAND_S, late_s), "a command")
+    require_its_time(experiment.seen, part, max(LATE_COMMAND_S, late_s), Awaited("command"))
 
 
 def _without_command_s(
-    experiment: ExperimentView, mark: BoardMark, follows: Callable[[Drive], bool]
+    experiment: ExperimentView, mark: BoardMark, follows: Callable[[DriveCommand], bool]
 ) -> float:
     """How long before a mark the node had sent nothing that follows, by the board's clock."""
     begin_s = mark.board_s if mark.since_s is None else mark.since_s
@@ -339,7 +338,7 @@ def _without_command_s(
     return mark.board_s - max((begin_s, *sent))
 
 
-def _makes(wanted: tuple[int, int]) -> Callable[[Drive], bool]:
+def _makes(wanted: tuple[int, int]) -> Callable[[DriveCommand], bool]:
     """Whether a command makes the motors run with this PWM."""
     return lambda drive: _alike((drive.left_pwm, drive.right_pwm), wanted)
 
@@ -376,7 +375,7 @@ def stop_by_itself(after: str) -> Demand[ExperimentView]:
 
     def demand(experiment: ExperimentView) -> None:
         if not any(_pwm_at(experiment, after)):
-            raise faults.NothingToJudge("the motors were not running")
+            raise BoardUnused("motors")
         begun_s = _mark(experiment, after).board_s
         stop_s = _first_stop_s(experiment, begun_s)
         if stop_s is not None and stop_s - begun_s <= STOPS_WITHIN_S:
@@ -385,7 +384,7 @@ def stop_by_itself(after: str) -> Demand[ExperimentView]:
             require_steady(experiment.seen.stall_s)
             waited_s = experiment.seen.part(SerialSeen).limits.stands_within_s
             late_s = (stop_s - begun_s if stop_s else waited_s) - STOPS_WITHIN_S
-            require_its_time(experiment.seen, None, late_s, "the stop")
+            require_its_time(experiment.seen, None, late_s, Awaited("stop"))
             raise cable_faults.DoesNotStop(STOPS_WITHIN_S, stop_s and stop_s - begun_s)
 
     return demand
@@ -409,10 +408,7 @@ def _require_real_time(experiment: ExperimentView, from_s: float, to_s: float) -
     """
     took_s = _real_s(experiment, to_s) - _real_s(experiment, from_s)
     if took_s > STOPS_WITHIN_S:
-        raise faults.Inconclusive(
-            f"the stop came in time for the board, but this computer ran the board so slowly that"
-            f" {took_s:.2f} s had passed; close other programs and check again"
-        )
+        raise SlowBoard(took_s)
 
 
 def _real_s(experiment: ExperimentView, board_s: float) -> float:
@@ -433,7 +429,7 @@ def send_good_lines(experiment: ExperimentView) -> None:
     """The board refused nothing that the node sent over a good cable."""
     board = _board(experiment)
     if not board.heard:
-        raise faults.NothingToJudge("the node sent nothing to the board")
+        raise BoardUnused("unheard")
     for line in board.heard:
         if _command(line) is None:
             raise cable_faults.RejectedLine(line.text, _why_rejected(line.text))
@@ -528,7 +524,7 @@ def reckon_by_its_settings(
 def _board(experiment: ExperimentView) -> BoardSeen:
     board = experiment.seen.part(SerialSeen).board
     if board is None:
-        raise faults.NothingToJudge("there was no board")
+        raise BoardUnused("no_board")
     return board
 
 
@@ -537,35 +533,36 @@ def _mark(experiment: ExperimentView, part: str) -> BoardMark:
         if mark.part == part:
             return mark
     require_steady(experiment.seen.stall_s)
-    raise faults.NothingToJudge("the experiment did not come so far")
+    raise BoardUnused("not_so_far")
 
 
-def _commands(experiment: ExperimentView) -> list[tuple[float, Drive]]:
+def _commands(experiment: ExperimentView) -> list[tuple[float, DriveCommand]]:
     lines = _board(experiment).heard
     found = ((line.board_s, _command(line)) for line in lines)
     return [(at, drive) for at, drive in found if drive]
 
 
-def _command(line: CableLine) -> Drive | None:
+def _command(line: CableLine) -> DriveCommand | None:
     try:
-        return Drive.read(unframed(line.text.lstrip("$").encode("latin-1")))
+        return DriveCommand.read(unframed(line.text.lstrip("$").encode("latin-1")))
     except BadLine:
         return None
 
 
-def _why_rejected(text: str) -> str:
+def _why_rejected(text: str) -> cable_faults.Rejection:
     if not text.startswith("$"):
-        return "it does not begin with $"
+        return cable_faults.Rejection("no_beginning")
     if "$" in text.lstrip("$"):
-        return "no new line (\\n) ends the first command"
+        return cable_faults.Rejection("no_end")
+    line = text[1:].encode("latin-1")
     try:
-        Drive.read(unframed(text[1:].encode("latin-1")))
+        DriveCommand.read(unframed(line))
     except BadLine as error:
-        return str(error).partition(": ")[0]
-    return "it has two beginnings"
+        return cable_faults.Rejection(error.kind, f"{checksum(line.partition(b'*')[0]):04X}")
+    return cable_faults.Rejection("two_beginnings")
 
 
-def _runs(drive: Drive) -> bool:
+def _runs(drive: DriveCommand) -> bool:
     return bool(drive.left_pwm or drive.right_pwm)
 
 
@@ -604,7 +601,7 @@ def _speed_fault(left: float, right: float, told: set[tuple[int, int]]) -> cable
 def _velocities(topic: TopicView) -> list[tuple[float, float]]:
     pairs = [content.get("velocity") or [] for content in _contents(topic)]
     if any(len(pair) != 2 for pair in pairs):
-        raise WrongField(topic.name, "velocity", "two numbers", f"{pairs[0]}")
+        raise WrongField(topic.name, "velocity", cable_faults.TwoNumbers(), f"{pairs[0]}")
     return [(_number(left), _number(right)) for left, right in pairs]
 
 

@@ -4,8 +4,118 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.sentences import SentencePart, Text, one_of, plural
+from roslings_rover.models.board_lines import Badness
+
+LINE_CHARACTERS = 40
+"""So much of a line is shown."""
+
+
+def without_minus(number: float) -> float:
+    """With the digits that are shown; what is shown as 0 has no sign."""
+    return round(number, 2) + 0.0
+
+
+# --- parts of sentences ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Way(SentencePart):
+    """A way on the floor, seen from where it began."""
+
+    ahead_m: float
+    left_m: float
+    turn_deg: float
+    text = one_of(
+        ahead_left_left="{ahead:.2f} m ahead, {aside:.2f} m left, turned {turn:.0f} degrees left",
+        ahead_left_right="{ahead:.2f} m ahead, {aside:.2f} m left, turned {turn:.0f} degrees right",
+        ahead_left_none="{ahead:.2f} m ahead, {aside:.2f} m left, not turned",
+        ahead_right_left="{ahead:.2f} m ahead, {aside:.2f} m right, turned {turn:.0f} degrees left",
+        ahead_right_right="{ahead:.2f} m ahead, {aside:.2f} m right, turned {turn:.0f} degrees"
+        " right",
+        ahead_right_none="{ahead:.2f} m ahead, {aside:.2f} m right, not turned",
+        back_left_left="{ahead:.2f} m back, {aside:.2f} m left, turned {turn:.0f} degrees left",
+        back_left_right="{ahead:.2f} m back, {aside:.2f} m left, turned {turn:.0f} degrees right",
+        back_left_none="{ahead:.2f} m back, {aside:.2f} m left, not turned",
+        back_right_left="{ahead:.2f} m back, {aside:.2f} m right, turned {turn:.0f} degrees left",
+        back_right_right="{ahead:.2f} m back, {aside:.2f} m right, turned {turn:.0f} degrees right",
+        back_right_none="{ahead:.2f} m back, {aside:.2f} m right, not turned",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """The directions, after rounding."""
+        ahead = "back" if without_minus(self.ahead_m) < 0 else "ahead"
+        side = "right" if without_minus(self.left_m) < 0 else "left"
+        turn = without_minus(self.turn_deg)
+        turned = "none" if abs(turn) < 1 else "right" if turn < 0 else "left"
+        return f"{ahead}_{side}_{turned}"
+
+    @property
+    def ahead(self) -> float:
+        """In metres, without its direction."""
+        return abs(without_minus(self.ahead_m))
+
+    @property
+    def aside(self) -> float:
+        """In metres, without its direction."""
+        return abs(without_minus(self.left_m))
+
+    @property
+    def turn(self) -> float:
+        """In degrees, without its direction."""
+        return abs(without_minus(self.turn_deg))
+
+
+@dataclass(frozen=True)
+class Trouble(SentencePart):
+    """What a node has to outlast."""
+
+    kind: Literal["noise", "silence"]
+    seconds: float = 0.0
+    text = one_of(noise="the noise on the cable", silence="{seconds:g} s of silence")
+
+    @property
+    def which_text(self) -> str:
+        """Which one it was."""
+        return self.kind
+
+
+@dataclass(frozen=True)
+class TwoNumbers(SentencePart):
+    """What a velocity holds."""
+
+    text = "two numbers"
+
+
+@dataclass(frozen=True)
+class Rejection(SentencePart):
+    """Why the board cannot use a line."""
+
+    kind: Badness | Literal["no_beginning", "no_end", "two_beginnings"]
+    checksum: str = ""
+    """The right one."""
+    text = one_of(
+        no_beginning="it does not begin with $",
+        no_end="no new line (\\n) ends the first command",
+        two_beginnings="it begins twice",
+        no_line="this is no line",
+        checksum="the checksum should be {checksum}",
+        no_command="this is no command",
+        too_large="a number is too large",
+        no_speeds="these are no speeds",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """What is wrong with it."""
+        return self.kind
+
+
+# --- the faults --------------------------------------------------------------------------------
 
 
 @dataclass(eq=False)
@@ -16,20 +126,25 @@ class LinesAndMessagesDiffer(Fault):
     lines: int
     messages: int
     why = "A robot that misses lines of its wheels does not know how far it went."
-    expected = "one message on {topic} for each line of the board ({lines} lines)"
-    measured = "{messages} messages"
+    expected = plural(
+        "lines",
+        one="one message on {topic} for each line of the board ({lines} line)",
+        other="one message on {topic} for each line of the board ({lines} lines)",
+    )
+    measured = plural("messages", one="{messages} message", other="{messages} messages")
 
     hint = "Count both: how many lines come, and how often do you publish?"
 
+    mend = one_of(
+        few="Read all bytes that wait, and handle every whole line in them, not only one."
+        " A line may come in two pieces: keep the first piece.",
+        many="Publish once for each line that begins with W, and for no other line.",
+    )
+
     @property
-    def mend(self) -> str:
+    def which_mend(self) -> str:
         """Too few, or too many."""
-        if self.messages < self.lines:
-            return (
-                "Read all bytes that wait, and handle every whole line in them, not only one."
-                " A line may come in two pieces: keep the first piece."
-            )
-        return "Publish once for each line that begins with W, and for no other line."
+        return "few" if self.messages < self.lines else "many"
 
 
 @dataclass(eq=False)
@@ -86,7 +201,7 @@ class BadLineUsed(Fault):
 class SilentAfter(Fault):
     """It lives, and nothing comes any more."""
 
-    what: str
+    what: Text
     topic: str
     why = "Plugs come loose on a robot that drives. Nobody is there to start the node again."
     hint = "What does your node do after a read or a write had an error?"
@@ -111,7 +226,7 @@ class GaveUpInSilence(SilentAfter):
 class WrongOdometry(Fault):
     """The odometry and the rover went different ways."""
 
-    part: str
+    part: Text
     really: tuple[float, float, float]
     told: tuple[float, float, float]
     why = "Odometry is how the robot knows where it is between two looks at the world."
@@ -121,36 +236,41 @@ class WrongOdometry(Fault):
         "Then compare."
     )
 
-    @property
-    def expected(self) -> str:
-        """The true way."""
-        return f"on the {self.part}, the rover went {_way(self.really)}"
+    expected = "on the {part}, the rover went {way_really}"
+    measured = "/odom says {way_told}"
+    mend = one_of(
+        wrong_way="It turns the wrong way. Turn = (right - left) x radius / separation.",
+        turn="Turn = (right - left) x radius / separation, times the seconds since before.",
+        direction="The length of the way is right, its direction is not. Add forward x seconds x"
+        " cos(heading) to x, and forward x seconds x sin(heading) to y.",
+        stays="It stays at its start. Add forward x seconds x cos(heading) to x, sin to y.",
+        forward="Forward = (left + right) / 2 x radius. Times the seconds from one line to the"
+        " next,"
+        " by the board's clock (MS), in the direction of the heading.",
+    )
 
     @property
-    def measured(self) -> str:
-        """The way that was told."""
-        return f"/odom says {_way(self.told)}"
-
-    @property
-    def mend(self) -> str:
+    def which_mend(self) -> str:
         """The likeliest cause."""
         turn, length_m = self.really[2], math.hypot(*self.really[:2])
         told_x, told_y, told_turn = self.told
         if abs(told_turn + turn) < 0.2 * abs(turn):
-            return "It turns the wrong way. Turn = (right - left) x radius / separation."
+            return "wrong_way"
         if abs(told_turn - turn) > 0.05 * abs(turn) + 3:
-            return "Turn = (right - left) x radius / separation, times the seconds since before."
+            return "turn"
         if abs(math.hypot(told_x, told_y) - length_m) < 0.2 * length_m:
-            return (
-                "The length of the way is right, its direction is not. Add forward x seconds x"
-                " cos(heading) to x, and forward x seconds x sin(heading) to y."
-            )
-        if abs(told_x) + abs(told_y) < 0.02:
-            return "It stays at its start. Add forward x seconds x cos(heading) to x, sin to y."
-        return (
-            "Forward = (left + right) / 2 x radius. Times the seconds from one line to the next,"
-            " by the board's clock (MS), in the direction of the heading."
-        )
+            return "direction"
+        return "stays" if abs(told_x) + abs(told_y) < 0.02 else "forward"
+
+    @property
+    def way_really(self) -> Way:
+        """The true way."""
+        return Way(*self.really)
+
+    @property
+    def way_told(self) -> Way:
+        """The way that was told."""
+        return Way(*self.told)
 
 
 @dataclass(eq=False)
@@ -168,28 +288,31 @@ class WrongTwist(Fault):
         " turn = (right - left) x radius / separation into twist.twist.angular.z."
     )
 
-    @property
-    def expected(self) -> str:
-        """The motion of the wheels."""
-        return f"on the arc, the twist of {self.topic} says {_motion(self.really)}"
+    expected = (
+        "on the arc, the twist of {topic} says {really_m_s:.2f} m/s forward,"
+        " {really_rad_s:.2f} rad/s"
+    )
+    measured = "it says {told_m_s:.2f} m/s forward, {told_rad_s:.2f} rad/s"
 
     @property
-    def measured(self) -> str:
-        """What it says."""
-        return f"it says {_motion(self.told)}"
+    def really_m_s(self) -> float:
+        """Of the wheels: forward."""
+        return without_minus(self.really[0])
 
+    @property
+    def really_rad_s(self) -> float:
+        """Of the wheels: the turn."""
+        return without_minus(self.really[1])
 
-def _motion(motion: tuple[float, float]) -> str:
-    forward, turn = (round(part, 2) + 0.0 for part in motion)
-    return f"{forward:.2f} m/s forward, {turn:.2f} rad/s"
+    @property
+    def told_m_s(self) -> float:
+        """What the node says: forward."""
+        return without_minus(self.told[0])
 
-
-def _way(way: tuple[float, float, float]) -> str:
-    ahead, left, turn = (round(part, 2) + 0.0 for part in way)
-    side, way_round = ("right" if part < 0 else "left" for part in (left, turn))
-    along = f"{abs(ahead):.2f} m {'back' if ahead < 0 else 'ahead'}, {abs(left):.2f} m {side}"
-    turned = f"turned {abs(turn):.0f} degrees {way_round}" if abs(turn) >= 1 else "not turned"
-    return f"{along}, {turned}"
+    @property
+    def told_rad_s(self) -> float:
+        """What the node says: the turn."""
+        return without_minus(self.told[1])
 
 
 @dataclass(eq=False)
@@ -206,19 +329,10 @@ class WrongDrive(Fault):
         " of -. PWM = wheel speed / max_wheel_speed x 255, rounded."
     )
 
-    @property
-    def expected(self) -> str:
-        """The PWM of this motion."""
-        forward, turn = self.motion
-        return (
-            f"for {forward:g} m/s and {turn:g} rad/s, PWM left {self.wanted[0]}"
-            f" and right {self.wanted[1]}"
-        )
-
-    @property
-    def measured(self) -> str:
-        """What reached the motors."""
-        return f"the motors had PWM left {self.got[0]} and right {self.got[1]}"
+    expected = (
+        "for {motion[0]:g} m/s and {motion[1]:g} rad/s, PWM left {wanted[0]} and right {wanted[1]}"
+    )
+    measured = "the motors had PWM left {got[0]} and right {got[1]}"
 
 
 @dataclass(eq=False)
@@ -250,10 +364,7 @@ class MovesUntold(Fault):
     hint = "What does your node publish before the first message has come?"
     mend = "Until the first message comes, the motion is zero: 0.0 forward and 0.0 turn."
 
-    @property
-    def measured(self) -> str:
-        """What reached the motors."""
-        return f"nobody had said anything, and the motors had PWM {self.got[0]} and {self.got[1]}"
+    measured = "nobody had said anything, and the motors had PWM {got[0]} and {got[1]}"
 
 
 @dataclass(eq=False)
@@ -268,29 +379,37 @@ class SettingIgnored(WrongDrive):
         " Does main() say rclpy.init(args=args)?"
     )
 
-    @property
-    def measured(self) -> str:
-        """What reached the motors, and what that means."""
-        return (
-            f"PWM left {self.got[0]} and right {self.got[1]}: right for the default of"
-            f" {self.name!r}, and the node was started with another value"
-        )
+    measured = (
+        "PWM left {got[0]} and right {got[1]}: right for the default of"
+        " {name!r}, and the node was started with another value"
+    )
 
 
 @dataclass(eq=False)
 class TooFast(WrongDrive):
     """A command beyond what the wheels can do."""
 
+    KNOWN_AS = "TooFastForTheWheels"
+
     sent: str
     why = "A PWM beyond 255 is no command: the board refuses it, and the robot stops on its way."
     hint = "What does your code do where a wheel would need more than 255?"
     mend = "Where a wheel would need more than 255, make both PWM smaller by the same factor."
 
+    measured = one_of(
+        sent="the motors had PWM left {got[0]} and right {got[1]}; the last line was {line!r}",
+        silent="the motors had PWM left {got[0]} and right {got[1]}",
+    )
+
     @property
-    def measured(self) -> str:
-        """What reached the motors, and the line that was sent."""
-        sent = f"; the last line was {self.sent[:40]!r}" if self.sent else ""
-        return f"the motors had PWM left {self.got[0]} and right {self.got[1]}{sent}"
+    def which_measured(self) -> str:
+        """Whether any line was sent."""
+        return "sent" if self.sent else "silent"
+
+    @property
+    def line(self) -> str:
+        """The beginning of the line that was sent."""
+        return self.sent[:LINE_CHARACTERS]
 
 
 @dataclass(eq=False)
@@ -301,10 +420,7 @@ class OtherOdometry(WrongOdometry):
     hint = "With which numbers does your odometry reckon?"
     mend = "The odometry needs the values of the parameters, too: not the numbers of the card."
 
-    @property
-    def expected(self) -> str:
-        """The true way, of a rover with these measures."""
-        return f"started with {self.settings}: {super().expected}"
+    expected = "started with {settings}: on the {part}, the rover went {way_really}"
 
 
 @dataclass(eq=False)
@@ -334,15 +450,19 @@ class WrongSpeedOfPort(Fault):
     hint = "Which baud rate does serial.Serial() get?"
     mend = "Give self.get_parameter({name!r}).value to serial.Serial() as the baud rate."
 
+    measured = one_of(another="it has {found}", none="it has no speed that anybody has set")
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """Its own."""
-        return f"it has {self.found or 'no speed that anybody has set'}"
+        return "another" if self.found else "none"
 
 
 @dataclass(eq=False)
 class DoesNotStop(Fault):
     """It goes on with an old command."""
+
+    KNOWN_AS = "DoesNotStopWithoutCommands"
 
     within_s: float
     after_s: float | None
@@ -354,12 +474,12 @@ class DoesNotStop(Fault):
     )
     expected = "M,SEQ,0,0 within {within_s:g} s of the last command on /cmd_vel"
 
+    measured = one_of(late="it was sent after {after_s:.1f} s", never="no such line was sent")
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """When it came."""
-        if self.after_s is None:
-            return "no such line was sent"
-        return f"it was sent after {self.after_s:.1f} s"
+        return "never" if self.after_s is None else "late"
 
 
 @dataclass(eq=False)
@@ -367,7 +487,7 @@ class RejectedLine(Fault):
     """The board refused a line."""
 
     line: str
-    reason: str
+    reason: Rejection
     why = "The board obeys only what it can trust: a whole line with the right checksum."
     hint = "Compare your line with the expected one, sign by sign."
     mend = (
@@ -376,10 +496,12 @@ class RejectedLine(Fault):
     )
     expected = "every line to the board is one that it can use, like $M,1,100,-100*7AC2"
 
+    measured = "{beginning!r}: {reason}"
+
     @property
-    def measured(self) -> str:
-        """The first that is not."""
-        return f"{self.line[:40]!r}: {self.reason}"
+    def beginning(self) -> str:
+        """Of the first that is not."""
+        return self.line[:LINE_CHARACTERS]
 
 
 @dataclass(eq=False)
@@ -392,10 +514,7 @@ class FollowedNonsense(Fault):
     mend = "Look at each number with math.isfinite() before you use it."
     expected = "after a command with NaN the motors stand, and the node goes on"
 
-    @property
-    def measured(self) -> str:
-        """What happened."""
-        return f"the motors had PWM left {self.got[0]} and right {self.got[1]}"
+    measured = "the motors had PWM left {got[0]} and right {got[1]}"
 
 
 @dataclass(eq=False)

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from ros2_on_pip.language import said
 from ros2_on_pip.markup import Markup, joined, tag
 from roslings.capabilities.serial.record import BoardSeen, CableLine, SerialSeen
 from roslings.evidence import Evidence, ExperimentSeen
-from roslings.report.html.timeline_svg import cut
+from roslings.report.html.timeline_svg import cut, in_experiment
 from roslings_rover.models.board_lines import BadLine, unframed
 
 FIRST = 6
 """So many lines of each side are shown; the bad ones besides."""
 MOST_BAD = 20
+BOARD = "From the board: {count} lines{lost}"
+NODE = "From the node: {count} lines, {refused} refused by the board"
 
 
 def sections(evidence: Evidence) -> Iterator[Markup]:
@@ -24,25 +27,26 @@ def sections(evidence: Evidence) -> Iterator[Markup]:
     ]
     if figures:
         words = "The first lines of each side, and those that are no line of the card, underlined."
-        note = tag("p", words, class_="about")
-        yield tag("section", tag("h2", "Lines on the cable"), note, *figures)
+        note = tag("p", said("page.cable.about", words), class_="about")
+        yield tag("section", tag("h2", said("page.cable", "Lines on the cable")), note, *figures)
 
 
 def _figure(seen: ExperimentSeen, board: BoardSeen) -> Markup:
     return tag(
         "figure",
-        tag("h3", f"in {seen.name}"),
-        tag("p", f"From the board: {len(board.told)} lines{_lost(board)}"),
+        tag("h3", in_experiment(seen.name)),
+        tag("p", said("page.cable.board", BOARD, count=len(board.told), lost=_lost(board))),
         _lines(board.told),
-        tag("p", f"From the node: {len(board.heard)} lines, {board.rejected} refused by the board"),
+        tag("p", said("page.cable.node", NODE, count=len(board.heard), refused=board.rejected)),
         _lines(board.heard),
     )
 
 
 def _lost(board: BoardSeen) -> str:
-    return (
-        f"; {board.lost_bytes} bytes were read too late, and are lost" if board.lost_bytes else ""
-    )
+    if not board.lost_bytes:
+        return ""
+    late = "; {count} bytes were read too late, and are lost"
+    return said("page.cable.lost", late, count=board.lost_bytes)
 
 
 def _lines(lines: Sequence[CableLine]) -> Markup:

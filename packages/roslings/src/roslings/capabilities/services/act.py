@@ -8,8 +8,13 @@ from contextlib import ExitStack, contextmanager
 
 from ros2_on_pip.near_names import nearest
 from roslings.arena import Process
-from roslings.capabilities.services.calling import Call, Caller, Server
-from roslings.capabilities.services.contract import MOST_LATE, AnswerContract, ServiceContract
+from roslings.capabilities.services.calling import Caller, Server, ServiceCall
+from roslings.capabilities.services.contract import (
+    MOST_LATE,
+    AnswerContract,
+    ServiceContract,
+    ServiceWords,
+)
 from roslings.capabilities.services.graph import read_services
 from roslings.capabilities.services.record import CLIENT_ENDS, CallLimits, ServiceEnd, ServicesSeen
 from roslings.course import NodeContract, TopicContract
@@ -17,7 +22,7 @@ from roslings.evidence import StageMark
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
 from roslings.experiment.timing import accounting, timing
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 
 ANSWER_WITHIN_S = 5.0
 """No answer for so long is none; a late one is still an answer, and told as late."""
@@ -105,7 +110,7 @@ class Asker:
 
     def _ask(
         self, callers: Sequence[Caller], turn: Sequence[AnswerContract], part: str, number: int
-    ) -> list[Call]:
+    ) -> list[ServiceCall]:
         """One request from each caller, and the answers. None after a server fell silent."""
         if self._silent:
             return []
@@ -129,7 +134,7 @@ class Asker:
             self._scene.seen.stuck.append(near.found)
         self._look()
 
-    def _watch_state(self, call: Call, state: TopicContract) -> None:
+    def _watch_state(self, call: ServiceCall, state: TopicContract) -> None:
         """Let the state topic speak after an answer."""
         if not call.answered:
             return
@@ -143,12 +148,12 @@ class Asker:
     def _all_there(self) -> bool:
         self._look()
         servers = [end for end in self._scene.seen.part(ServicesSeen).ends if end.kind == "server"]
-        return len(servers) >= len(self._node.serves)
+        return len(servers) >= len(self._node.of(ServiceWords).serves)
 
     def _look(self) -> None:
         """Read who serves what; the fullest sight is kept, as of the graph."""
         seen = self._scene.seen
-        ends = read_services(self._scene.probe.eye, seen.graph.nodes)
+        ends = read_services(self._scene.probe.node, seen.graph.nodes)
         if len(ends) >= len(seen.part(ServicesSeen).ends):
             seen.recording(ServicesSeen).ends = ends
 
@@ -163,7 +168,7 @@ class Asker:
         return next((end for end in servers if near and end.service == near.found), None)
 
 
-def _is_late(call: Call, service: ServiceContract) -> bool:
+def _is_late(call: ServiceCall, service: ServiceContract) -> bool:
     if call.seen.answered_ns is None or service.within_s is None:
         return False
     return (call.seen.answered_ns - call.seen.sent_ns) / 1e9 > service.within_s
@@ -194,6 +199,6 @@ def await_end(scene: Scene, process: Process, node: NodeContract) -> None:
 
 def _has_clients(scene: Scene) -> bool:
     """Note whom the nodes may call; a name that nobody serves is then told as a slip."""
-    ends = read_services(scene.probe.eye, scene.seen.graph.nodes)
+    ends = read_services(scene.probe.node, scene.seen.graph.nodes)
     scene.seen.recording(ServicesSeen).ends = ends or scene.seen.part(ServicesSeen).ends
     return any(end.kind == "client" for end in ends)

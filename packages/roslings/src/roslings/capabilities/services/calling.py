@@ -29,7 +29,7 @@ class Caller:
         self._class: Any = message_class(type_)
 
     def __enter__(self) -> Caller:
-        self._client = self._probe.eye.create_client(self._class, self._service)
+        self._client = self._probe.node.create_client(self._class, self._service)
         return self
 
     def __exit__(
@@ -38,20 +38,20 @@ class Caller:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self._probe.eye.destroy_client(self._client)
+        self._probe.node.destroy_client(self._client)
 
     @property
     def ready(self) -> bool:
         """A server is matched with this client."""
         return bool(self._client.service_is_ready())
 
-    def send(self, request: dict[str, Any]) -> Call:
+    def send(self, request: dict[str, Any]) -> ServiceCall:
         """Ask, and do not wait. Raises AttributeError where the type has no such field."""
         return self.send_message(_filled(self._class.Request(), request), request)
 
-    def send_message(self, message: Any, request: dict[str, Any]) -> Call:
+    def send_message(self, message: Any, request: dict[str, Any]) -> ServiceCall:
         """The same with a request that is a ROS message already; `request` is for the record."""
-        call = Call(
+        call = ServiceCall(
             CallSeen(
                 service=self._service,
                 type=self._type,
@@ -65,7 +65,7 @@ class Caller:
         return call
 
 
-class Call:
+class ServiceCall:
     """One call that is under way, or answered."""
 
     def __init__(self, seen: CallSeen) -> None:
@@ -108,7 +108,7 @@ class Server:
         self._class: Any = message_class(type_)
 
     def __enter__(self) -> Server:
-        self._server = self._probe.eye.create_service(self._class, self._service, self._respond)
+        self._server = self._probe.node.create_service(self._class, self._service, self._respond)
         return self
 
     def __exit__(
@@ -117,7 +117,7 @@ class Server:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self._probe.eye.destroy_service(self._server)
+        self._probe.node.destroy_service(self._server)
 
     def _respond(self, request: Any, response: Any) -> Any:
         asked_ns, asked = time.monotonic_ns(), to_plain(request)

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from pydantic import Field
 
 from roslings.capability import Row, Words
-from roslings.course.contract import Contract, Expected, Plain, Prose, Stimulus, as_typed
+from roslings.course.contract import (
+    Contract,
+    Expected,
+    NodeWords,
+    Plain,
+    Prose,
+    Stimulus,
+    as_typed,
+)
 from roslings.course.kinds import Kind
-
-if TYPE_CHECKING:
-    from roslings.course import NodeContract
-
 
 MOST_LATE = 0.05
 """The part of the answers that may be late: a computer does other things, too."""
@@ -49,14 +53,14 @@ class ServiceContract(Contract):
         return self.model_copy(update={"answers": (any_answer,)})
 
 
-class ServiceWords(Contract):
+class ServiceWords(NodeWords):
     """What a card may say of a node."""
 
     serves: tuple[ServiceContract, ...] = ()
     calls: tuple[ServiceContract, ...] = ()
 
 
-def rows(node: NodeContract) -> Iterable[Row]:
+def rows(node: ServiceWords) -> Iterable[Row]:
     """Each service with its type, its answers and its time."""
     verbs = {"serves": node.serves, "calls": node.calls}
     for verb, service in ((verb, service) for verb, each in verbs.items() for service in each):

@@ -11,8 +11,10 @@ from ros2_on_pip.near_names import nearest
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.services import faults
 from roslings.capabilities.services.contract import MOST_LATE, AnswerContract, ServiceContract
+from roslings.capabilities.services.reasons import LateByTheMachine, NoCall
 from roslings.capabilities.services.record import CLIENT_ENDS, CallSeen, ServiceEnd, ServicesSeen
 from roslings.course import GiveUpContract, NodeContract, TopicContract
+from roslings.course.contract import Plain
 from roslings.course.files import written
 from roslings.evidence import ExperimentSeen
 from roslings.judge.demands import (
@@ -21,11 +23,17 @@ from roslings.judge.demands import (
     require_its_time,
     require_steady,
 )
-from roslings.judge.faults import EndedWithError, Inconclusive, NothingToJudge, NotLogged
+from roslings.judge.faults import EndedWithError, NotLogged
+from roslings.judge.faults.moments import Awaited, When
+from roslings.judge.faults.processes import Does
+from roslings.judge.faults.sentences import Text
+from roslings.judge.faults.writing import PlaceInCode
 from roslings.judge.values import same
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
-from roslings.judge.words import describe_end, how_it_went
-from roslings.matching import nearest_endpoint
+from roslings.judge.words import end_of, how_it_went
+from roslings.seen.matching import nearest_endpoint
+
+ANSWERED = When("answered")
 
 # --- who serves what ---------------------------------------------------------------------------
 
@@ -68,7 +76,7 @@ def serve_their_types(*services: ServiceContract) -> Demand[ExperimentView]:
                 raise faults.WrongServiceType(end.service, service.type, end.type)
         for service, end in found:
             if end is None:
-                raise NothingToJudge(f"nobody serves {service.service}, so it has no type")
+                raise NoCall("no_type", service.service)
 
     return demand
 
@@ -118,27 +126,27 @@ def show_each(services: Sequence[ServiceContract], topic: TopicContract) -> Dema
             if c.part in answers and c.answered_ns
         ]
         if not calls:
-            raise NothingToJudge("no call was answered")
+            raise NoCall("unanswered")
         for call in calls:
             answer = answers[call.part][call.number]
             found = _said_after(experiment, call, topic)
             if not same(found, answer.state, topic.numbers_within):
-                after = f"{call.service}{_asked(call)}"
                 shown = None if found is None else f"{found}"
-                raise faults.WrongState(topic.topic, after, f"{answer.state}", shown)
+                raise faults.WrongState(
+                    topic.topic, f"{answer.state}", shown, call.service, _asked(call)
+                )
 
     return demand
 
 
-def say_at_first(state: Any) -> Demand[TopicView]:
+def say_at_first(state: Plain | None) -> Demand[TopicView]:
     """Before anybody asks for anything, each message says this."""
 
     def demand(topic: TopicView) -> None:
         contents = [m.content for m in topic.messages if isinstance(m.content, dict)]
         for found in (content.get("data") for content in contents):
             if not same(found, state, topic.contract.numbers_within):
-                words = "the start, before any call", f"{state}", f"{found}"
-                raise faults.WrongState(topic.name, *words)
+                raise faults.WrongState(topic.name, f"{state}", f"{found}")
 
     return demand
 
@@ -148,7 +156,7 @@ def _conversation(experiment: ExperimentView, service: ServiceContract) -> list[
         call for call in experiment.seen.part(ServicesSeen).calls if call.part == service.service
     ]
     if not calls:
-        raise NothingToJudge(f"{service.service} could not be called")
+        raise NoCall("uncalled", service.service)
     return calls
 
 
@@ -171,7 +179,7 @@ def _require_answer(
             raise faults.Deadlock(call.service, asked, waited_s, calls)
         raise faults.StuckInCallback(call.service, asked, waited_s)
     require_steady(experiment.seen.stall_s)
-    require_its_time(experiment.seen, call.part, waited_s, "an answer")
+    require_its_time(experiment.seen, call.part, waited_s, Awaited("answer"))
     raise faults.NoAnswer(call.service, asked, waited_s)
 
 
@@ -191,13 +199,12 @@ def _compare(call: CallSeen, answer: AnswerContract) -> None:
 
 def _case(call: CallSeen, answer: AnswerContract) -> str:
     """The request; where it has no fields, the card's words for the case."""
-    return _asked(call) or f" ({answer.when})"
+    return _asked(call) or answer.when
 
 
 def _asked(call: CallSeen) -> str:
-    """The request as it stands behind the service's name; nothing where it has no fields."""
-    words = ", ".join(f"{name}: {_shown(value)}" for name, value in call.request.items())
-    return f" ({words})" if words else ""
+    """The request as it stands behind the service's name; empty where it has no fields."""
+    return ", ".join(f"{name}: {_shown(value)}" for name, value in call.request.items())
 
 
 def _shown(value: Any) -> str:
@@ -209,7 +216,7 @@ def _said_after(experiment: ExperimentView, call: CallSeen, topic: TopicContract
     publisher = nearest_endpoint(experiment.seen.graph, "publisher", topic.topic, topic.type)
     heard = experiment.seen.topics.get(publisher.topic) if publisher else None
     if heard is None:
-        raise NothingToJudge(f"nothing came on {topic.topic}")
+        raise NoCall("nothing_came", topic.topic)
     start_ns, end_ns = call.answered_ns or 0, call.watched_until_ns or 0
     said = [
         message.content["data"]
@@ -243,7 +250,7 @@ def answer_in_time(
     def demand(experiment: ExperimentView) -> None:
         calls = [call for call in experiment.seen.part(ServicesSeen).calls if call.part == part]
         if not calls:
-            raise NothingToJudge(f"{service.service} could not be called")
+            raise NoCall("uncalled", service.service)
         for call in calls:
             _require_answer(experiment, node, call, _answer_to(call, service))
             _compare(call, _answer_to(call, service))
@@ -252,7 +259,7 @@ def answer_in_time(
         if len(late) > MOST_LATE * asked:
             _require_worse_than_the_machine(experiment, took_s, limit_s)
             excess_s = sum(each - limit_s for each in late)
-            require_its_time(experiment.seen, part, excess_s, "answers")
+            require_its_time(experiment.seen, part, excess_s, Awaited("answers"))
             name = calls[0].service
             raise faults.LateAnswers(name, who, limit_s, len(late), len(calls), took_s[-1])
 
@@ -272,17 +279,14 @@ def _require_worse_than_the_machine(
 ) -> None:
     """Single late answers may be this computer's doing. Raises Inconclusive.
 
-    Where half of them are late, no pause of the computer explains that; where fewer are, they
-    must be late by more than the longest time for which the observer itself was not run.
+    Where half of them are late, no pause of the computer explains that. Where fewer are, they must
+    be late by more than the longest time for which the observer itself was not run.
     """
     stall_s = experiment.seen.stall_s
     require_steady(stall_s)
     too_long_s = statistics.median(each for each in took_s if each > limit_s) - limit_s
     if statistics.median(took_s) <= limit_s and too_long_s < stall_s:
-        raise Inconclusive(
-            f"some answers were late by {too_long_s:.2f} s, but this computer stood still for"
-            f" {stall_s:.2f} s; close other programs and check again"
-        )
+        raise LateByTheMachine(too_long_s, stall_s)
 
 
 # --- clients -----------------------------------------------------------------------------------
@@ -296,7 +300,7 @@ def ask(node: NodeContract, service: ServiceContract) -> Demand[ExperimentView]:
         process = experiment.process(node)
         served = experiment.seen.part(ServicesSeen).served
         if not served:
-            require_no_crash(process, f"calls {service.service}")
+            require_no_crash(process, "calls", service.service)
             near = nearest(service.service, (e.service for e in _ends(experiment, "client")))
             if near and not near.exact:
                 raise faults.AsksElsewhere(near)
@@ -330,11 +334,13 @@ def _require_its_type(experiment: ExperimentView, service: ServiceContract) -> N
         )
 
 
-def require_no_crash(process: ProcessView, task: str) -> None:
-    """Raises EndedWithError where it ended with a traceback and not with its `task` done."""
+def require_no_crash(process: ProcessView, does: Does, what: str = "", when: Text = "") -> None:
+    """Raises EndedWithError where it ended with a traceback, and had not done what it has to."""
     seen = process.seen
     if seen.ended_by_itself and any(text.startswith("Traceback") for text in process.texts):
-        raise EndedWithError(seen.executable, task, describe_end(seen), log=process.last_lines())
+        raise EndedWithError(
+            seen.executable, does, end_of(seen), what, when, log=process.last_lines()
+        )
 
 
 def tell_the_answer(node: NodeContract) -> Demand[ExperimentView]:
@@ -345,12 +351,12 @@ def tell_the_answer(node: NodeContract) -> Demand[ExperimentView]:
         process = experiment.process(node)
         served = experiment.seen.part(ServicesSeen).served
         if experiment.seen.stuck or not served:
-            raise NothingToJudge("it waits for ever, so it has no answer to write")
+            raise NoCall("waits")
         message = str(served[0].response["message"])
         line = template.format(text=message)
         if not any(line in text for text in process.texts):
             near = most_similar(line, process.texts)
-            when, place = f"when the answer is {message!r}", "where your code has the answer"
+            when, place = When("answer_is", message), PlaceInCode("answer")
             raise NotLogged(node.executable, line, near, when=when, place=place)
         insist_on_at_most(process, [line], len(served))
 
@@ -365,7 +371,7 @@ def _answered(seen: ExperimentSeen) -> bool:
 def end_by_itself(
     node: NodeContract,
     exit_code: int | None = 0,
-    when: str = "after the answer",
+    when: Text = ANSWERED,
     answered: Callable[[ExperimentSeen], bool] = _answered,
 ) -> Demand[ExperimentView]:
     """The client ends when it has its answer, with this exit code; None: with any.
@@ -377,7 +383,7 @@ def end_by_itself(
         process = experiment.process(node)
         if not process.seen.ended_by_itself:
             require_steady(experiment.seen.stall_s)
-            require_its_time(experiment.seen, CLIENT_ENDS, None, "the client's end")
+            require_its_time(experiment.seen, CLIENT_ENDS, None, Awaited("client_end"))
             if experiment.seen.stuck:
                 told = answered(experiment.seen)
                 raise faults.ClientDeadlock(node.executable, process.ran_s, told, when=when)
@@ -401,15 +407,15 @@ def give_up(node: NodeContract, wait: str = "wait_for_service") -> Demand[Experi
         late_s = (process.ran_s if took_s is None else took_s) - contract.within_s
         if took_s is None or late_s > 0:
             require_steady(experiment.seen.stall_s)
-            require_its_time(experiment.seen, CLIENT_ENDS, late_s, "the client's end")
+            require_its_time(experiment.seen, CLIENT_ENDS, late_s, Awaited("client_end"))
             kind = faults.NeverGivesUp if took_s is None else faults.GivesUpLate
             raise kind(node.executable, took_s or process.ran_s, contract.within_s, wait)
         if not any(contract.log in text for text in process.texts):
-            require_no_crash(process, f"writes {contract.log!r} when there is no server")
+            require_no_crash(process, "writes", contract.log, When("server_is_missing"))
             near = most_similar(contract.log, process.texts)
-            when, place = "without a server", "where the wait for the server gave back False"
+            when, place = When("no_server"), PlaceInCode("no_server")
             raise NotLogged(node.executable, contract.log, near, when=when, place=place)
-        require_code(process, contract.exit_code, "without a server")
+        require_code(process, contract.exit_code, When("no_server"))
 
     return demand
 
@@ -422,10 +428,10 @@ def _ended_after_s(experiment: ExperimentView, process: ProcessView) -> float | 
     return (process.seen.ended_ns - marks[-1]) / NS_PER_S if marks else 0.0
 
 
-def require_code(process: ProcessView, wanted: int, when: str) -> None:
+def require_code(process: ProcessView, wanted: int, when: Text) -> None:
     """Raises WrongExitCode."""
     seen = process.seen
     if seen.status != wanted:
         raise faults.WrongExitCode(
-            seen.executable, when, wanted, describe_end(seen), log=process.last_lines(6)
+            seen.executable, when, wanted, end_of(seen), log=process.last_lines(6)
         )

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ros2_on_pip.near_names import Near
 from roslings.judge.faults.base import Fault
-from roslings.judge.faults.graph import guess, look_in_front
+from roslings.judge.faults.ends import End, Went
+from roslings.judge.faults.graph import LOOK_IN_FRONT, NearlyNamed, with_guess
+from roslings.judge.faults.moments import When
+from roslings.judge.faults.sentences import Text, one_of, plural, some_of
 
 
 @dataclass(eq=False)
@@ -26,12 +28,15 @@ class NoService(Fault):
         " `ros2 service list` while the node runs."
     )
 
+    measured = one_of(
+        client="the node has a client of {service}, and no server",
+        nobody="no node serves {service}, or a name like it",
+    )
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """What there is."""
-        if self.is_client:
-            return f"the node has a client of {self.service}, and no server"
-        return f"no node serves {self.service}, or a name like it"
+        return "client" if self.is_client else "nobody"
 
 
 @dataclass(eq=False)
@@ -44,29 +49,28 @@ class ServedTwice(Fault):
     hint = "How often does your code call create_service(...) for this name?"
     mend = "Is self.create_service(...) there twice for this name? Take one of them out."
     expected = "one server of {service}"
-    measured = "there are {servers}"
+    measured = plural("servers", one="there is {servers}", other="there are {servers}")
 
 
 @dataclass(eq=False)
-class WrongService(Fault):
+class WrongService(NearlyNamed):
     """The service is there under another name."""
 
-    near: Near
     why = "Client and server meet only when both use the very same name."
     expected = "a node that serves {near.wanted}"
 
-    @property
-    def hint(self) -> str:
-        """Where the name is given."""
-        return (
-            f"Look at the name in create_service(...).{look_in_front(self.near)} Check with"
-            " `ros2 service list`."
-        )
+    hint = some_of(
+        name="Look at the name in create_service(...).",
+        in_front=LOOK_IN_FRONT,
+        check="Check with `ros2 service list`.",
+    )
+    measured = with_guess("there is no {near.wanted}, but {near.found} is served")
 
     @property
-    def measured(self) -> str:
-        """The name that is there, and the likely slip."""
-        return f"there is no {self.near.wanted}, but {self.near.found} is served{guess(self.near)}"
+    def which_hint(self) -> tuple[str, ...]:
+        """Where the name is given, and what may put something in front of it."""
+        in_front = ("in_front",) if self.near.how == "namespace" else ()
+        return "name", *in_front, "check"
 
 
 @dataclass(eq=False)
@@ -89,6 +93,7 @@ class NoAnswer(Fault):
 
     service: str
     asked: str
+    """The request's fields, or the card's words for the case."""
     waited_s: float
     why = "Whoever calls a service waits for its answer, and can do nothing until it comes."
     hint = "What does the service's function give back, on each way through it?"
@@ -96,7 +101,7 @@ class NoAnswer(Fault):
         "Does the function that you gave to create_service end with `return response`, on each"
         " way through it?"
     )
-    expected = "{service}{asked} is answered"
+    expected = "{service} ({asked}) is answered"
     measured = "no answer came within {waited_s:.0f} s"
 
 
@@ -123,10 +128,9 @@ class StuckInCallback(NoAnswer):
     why = "A node does one thing at a time. While a callback runs, nothing else in it does."
     hint = "Look for a loop without an end, a long sleep or input() in the service's function."
 
-    @property
-    def measured(self) -> str:  # type: ignore[override]
-        """That nothing runs any more."""
-        return f"{super().measured}, and no other callback of the node runs either"
+    measured = (
+        "no answer came within {waited_s:.0f} s, and no other callback of the node runs either"
+    )
 
 
 @dataclass(eq=False)
@@ -144,13 +148,10 @@ class Deadlock(StuckInCallback):
         " For another node, use call_async(...).add_done_callback(...) and return."
     )
 
-    @property
-    def measured(self) -> str:  # type: ignore[override]
-        """What it waits for."""
-        return (
-            f"{super().measured}: the node waits inside a callback,"
-            f" and is itself a client of {', '.join(self.calls)}"
-        )
+    measured = (
+        "no answer came within {waited_s:.0f} s, and no other callback of the node runs either: the"
+        " node waits inside a callback, and is itself a client of {calls}"
+    )
 
 
 @dataclass(eq=False)
@@ -164,21 +165,20 @@ class WrongAnswer(Fault):
     found: str
     case: str = ""
     why = "A client acts on the answer. It must be able to believe it."
-    expected = "{service}{asked} answers {field_name}: {wanted}"
+    expected = "{service} ({asked}) answers {field_name}: {wanted}"
     measured = "{field_name}: {found}"
 
+    hint = one_of(
+        case="Look at `response.{field_name} = ...` on the way through the function where"
+        " {case}. What is kept in the node (self.NAME) must tell the cases apart.",
+        each="Look at `response.{field_name} = ...` in the service's function. Is it set on"
+        " each way through it, and is it what the card says?",
+    )
+
     @property
-    def hint(self) -> str:
+    def which_hint(self) -> str:
         """Where it is set, and in which case."""
-        if self.case:
-            return (
-                f"Look at `response.{self.field_name} = ...` on the way through the function where"
-                f" {self.case}. What is kept in the node (self.NAME) must tell the cases apart."
-            )
-        return (
-            f"Look at `response.{self.field_name} = ...` in the service's function. Is it set on"
-            " each way through it, and is it what the card says?"
-        )
+        return "case" if self.case else "each"
 
 
 @dataclass(eq=False)
@@ -186,21 +186,34 @@ class WrongState(Fault):
     """The answer is right, and the state that is published is not."""
 
     topic: str
-    after: str
     wanted: str
     found: str | None
+    service: str = ""
+    """After a call of which; empty: at the start."""
+    asked: str = ""
+    """The request's fields, where it has any."""
     why = "A server that says yes and does nothing is worse than one that says no."
     hint = "Under which name is the state kept? Who changes it, and who publishes it?"
     mend = (
         "Keep the state in the node (self.NAME). The service's function changes it; the timer's"
         " function publishes it. Do both use the same name?"
     )
-    expected = "after {after}, {topic} says {wanted}"
+    expected = one_of(
+        start="after the start, before any call, {topic} says {wanted}",
+        call="after {service}, {topic} says {wanted}",
+        request="after {service} ({asked}), {topic} says {wanted}",
+    )
+    measured = one_of(another="it says {found}", nothing="nothing came on the topic")
 
     @property
-    def measured(self) -> str:
-        """The state that was seen."""
-        return f"it says {self.found}" if self.found is not None else "nothing came on the topic"
+    def which_expected(self) -> str:
+        """After what."""
+        return ("request" if self.asked else "call") if self.service else "start"
+
+    @property
+    def which_measured(self) -> str:
+        """Whether any was seen."""
+        return "nothing" if self.found is None else "another"
 
 
 @dataclass(eq=False)
@@ -220,18 +233,22 @@ class LateAnswers(Fault):
         " answer, return. The timer can do the rest."
     )
 
-    @property
-    def expected(self) -> str:
-        """The time."""
-        return f"{self.service}, {self.who}: each answer within {1000 * self.limit_s:.0f} ms"
+    expected = "{service}, {who}: each answer within {limit_ms:.0f} ms"
+    measured = plural(
+        "late",
+        one="{late} of {asked} answers was late; the slowest took {slowest_ms:.0f} ms",
+        other="{late} of {asked} answers were late; the slowest took {slowest_ms:.0f} ms",
+    )
 
     @property
-    def measured(self) -> str:
-        """How many took longer."""
-        return (
-            f"{self.late} of {self.asked} answers were late; the slowest took"
-            f" {1000 * self.slowest_s:.0f} ms"
-        )
+    def limit_ms(self) -> float:
+        """The card's time."""
+        return 1000 * self.limit_s
+
+    @property
+    def slowest_ms(self) -> float:
+        """The longest one."""
+        return 1000 * self.slowest_s
 
 
 # --- clients -----------------------------------------------------------------------------------
@@ -243,14 +260,14 @@ class DidNotAsk(Fault):
 
     executable: str
     service: str
-    how: str
+    went: Went
     why = "The server was ready. A client that does not ask gets no answer."
     hint = (
         "Does your code wait for the server (wait_for_service), and then come to"
         " call_async(request)? Write a line to the log right before the call, and see."
     )
     expected = "{executable} calls {service}"
-    measured = "no request came; {how}"
+    measured = "no request came; {went}"
 
 
 @dataclass(eq=False)
@@ -260,10 +277,7 @@ class AsksElsewhere(WrongService):
     hint = "Look at the name in create_client(...). Check with `ros2 service list`."
     expected = "a client of {near.wanted}"
 
-    @property
-    def measured(self) -> str:
-        """The name that it uses, and the likely slip."""
-        return f"it is a client of {self.near.found}{guess(self.near)}"
+    measured = with_guess("it is a client of {near.found}")
 
 
 @dataclass(eq=False)
@@ -286,7 +300,7 @@ class ClientStays(Fault):
 
     executable: str
     waited_s: float
-    when: str = field(default="after the answer", kw_only=True)
+    when: Text = field(default=When("answered"), kw_only=True)
     why = "This client has one task. When it is done, the terminal belongs to you again."
     expected = "{when}, {executable} ends by itself"
     measured = "it still ran {waited_s:.0f} s after its start"
@@ -312,11 +326,16 @@ class ClientDeadlock(ClientStays):
         " rclpy.spin_until_future_complete(node, future)."
     )
 
+    measured = one_of(
+        answered="the server answered at once, but after {waited_s:.0f} s it still waits, and no"
+        " callback of it runs",
+        unanswered="after {waited_s:.0f} s it still waits, and no callback of it runs",
+    )
+
     @property
-    def measured(self) -> str:  # type: ignore[override]
-        """What stands still."""
-        server = "the server answered at once, but " if self.answered else ""
-        return f"{server}after {self.waited_s:.0f} s it still waits, and no callback of it runs"
+    def which_measured(self) -> str:
+        """Whether it was given an answer."""
+        return "answered" if self.answered else "unanswered"
 
 
 @dataclass(eq=False)
@@ -346,25 +365,24 @@ class WrongExitCode(Fault):
     """The program's exit code does not tell how it went."""
 
     executable: str
-    when: str
+    when: Text
     wanted: int
-    found: str
+    end: End
     why = "Other programs see only the exit code: 0 says that all went well, 1 that it did not."
     expected = "{when}, {executable} ends with exit code {wanted}"
 
     hint = "What does main() return in this case? Read the last lines below, too."
 
-    @property
-    def measured(self) -> str:
-        """The code that came."""
-        return self.found
+    measured = "{end}"
+    mend = one_of(
+        one="Let main() return {wanted} in that case. setup.py hands it on.",
+        zero="Read the last lines below. Does main() return something other than None or 0?",
+    )
 
     @property
-    def mend(self) -> str:
-        """How a code is given."""
-        if self.wanted:
-            return f"Let main() return {self.wanted} in that case. setup.py hands it on."
-        return "Read the last lines below. Does main() return something other than None or 0?"
+    def which_mend(self) -> str:
+        """Which code is to be given."""
+        return "one" if self.wanted else "zero"
 
 
 @dataclass(eq=False)
@@ -377,4 +395,8 @@ class AskedAgain(Fault):
     why = "Each request does something: what is asked twice is done twice."
     hint = "How often is call_async(request) reached? Look for a loop, or a timer that goes on."
     expected = "{executable} calls {service} once"
-    measured = "it called {count} times, and each call was answered at once"
+    measured = plural(
+        "count",
+        one="it called {count} time, and each call was answered at once",
+        other="it called {count} times, and each call was answered at once",
+    )

@@ -5,17 +5,30 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
+from ros2_on_pip.language import Text, counted, said
 from ros2_on_pip.markup import Markup, tag
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.services.record import CallSeen, ServicesSeen
 from roslings.evidence import Evidence, ExperimentSeen
 from roslings.report.html.scale import time_text
-from roslings.report.html.timeline_svg import Bar, Line, counted, fields_text, table, timeline
+from roslings.report.html.timeline_svg import (
+    Bar,
+    TimelineRow,
+    fields_text,
+    in_experiment,
+    table,
+    timeline,
+)
 
 FEW = 4
 """So many calls of one kind are told one by one; of more, the slowest alone."""
 MOST_ROWS = 40
-HEAD = ("service", "after", "asked", "answered")
+HEAD = (
+    Text("page.calls.service", "service"),
+    Text("page.calls.after", "after"),
+    Text("page.calls.asked", "asked"),
+    Text("page.calls.answered", "answered"),
+)
 
 
 def sections(evidence: Evidence) -> Iterator[Markup]:
@@ -23,8 +36,8 @@ def sections(evidence: Evidence) -> Iterator[Markup]:
     figures = [_figure(seen) for seen in evidence.experiments.values() if _calls_of(seen)]
     if figures:
         words = "A bar goes from a request to its answer; a red one has no answer."
-        note = tag("p", words, class_="about")
-        yield tag("section", tag("h2", "Calls of services"), note, *figures)
+        note = tag("p", said("page.calls.about", words), class_="about")
+        yield tag("section", tag("h2", said("page.calls", "Calls of services")), note, *figures)
 
 
 def _calls_of(seen: ExperimentSeen) -> list[CallSeen]:
@@ -38,16 +51,31 @@ def _figure(seen: ExperimentSeen) -> Markup:
     lines = [_line(each, calls) for _, each in groups]
     rows = [row for label, each in groups for row in _rows(label, each)]
     open_ = sum(call.answered_ns is None for call in calls)
-    words = (
-        f"{counted(len(calls), 'call')}, {f'{open_} without' if open_ else 'each with'} an answer."
-    )
-    heading = tag("h3", f"in {seen.name}")
+    words = _counts(len(calls), open_)
+    heading = tag("h3", in_experiment(seen.name))
     return tag(
         "figure",
         heading,
         timeline(lines, words),
         tag("figcaption", words),
-        table("calls of services", HEAD, rows),
+        table(said("page.calls.table", "calls of services"), HEAD, rows),
+    )
+
+
+def _counts(calls: int, without_answer: int) -> str:
+    if without_answer:
+        return counted(
+            "page.calls.without",
+            calls,
+            one="{count} call, {without} without an answer.",
+            other="{count} calls, {without} without an answer.",
+            without=without_answer,
+        )
+    return counted(
+        "page.calls.with",
+        calls,
+        one="{count} call, each with an answer.",
+        other="{count} calls, each with an answer.",
     )
 
 
@@ -55,10 +83,10 @@ def _label(call: CallSeen) -> str:
     return call.service if call.part in ("", call.service) else f"{call.service}, {call.part}"
 
 
-def _line(calls: Sequence[CallSeen], of: Sequence[CallSeen]) -> Line:
+def _line(calls: Sequence[CallSeen], of: Sequence[CallSeen]) -> TimelineRow:
     began_ns = of[0].sent_ns
     ended_ns = max(call.answered_ns or call.sent_ns for call in of)
-    return Line(
+    return TimelineRow(
         calls[0].part or calls[0].service, tuple(_bar(call, began_ns, ended_ns) for call in calls)
     )
 
@@ -73,12 +101,13 @@ def _rows(label: str, calls: Sequence[CallSeen]) -> Iterator[tuple[str, ...]]:
         yield from ((label, *_told(call)) for call in calls)
         return
     slowest = max(calls, key=_took_s)
-    yield f"{label}: {len(calls)} calls, the slowest", *_told(slowest)
+    words = "{label}: {count} calls, the slowest"
+    yield said("page.calls.slowest", words, label=label, count=len(calls)), *_told(slowest)
 
 
 def _told(call: CallSeen) -> tuple[str, str, str]:
     if call.answered_ns is None:
-        return "-", fields_text(call.request), "no answer"
+        return "-", fields_text(call.request), said("page.calls.no_answer", "no answer")
     return time_text(_took_s(call)), fields_text(call.request), fields_text(call.response)
 
 

@@ -13,7 +13,7 @@ from roslings.evidence import Endpoint, Spoken, StageMark
 from roslings.experiment.missed import hears, publishes
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.scene import Scene
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 
 TURNS_WITHIN_S = 3.0
 SHOWS_WITHIN_S = 1.5
@@ -37,9 +37,9 @@ class Teller:
         self._heard, self._shown = heard, shown
         self._is_heard = self._stuck = False
         self._silent = 0
-        scene.appears(lambda: self._ear() is not None, hears(heard))
+        scene.appears(lambda: self._subscription() is not None, hears(heard))
 
-    def _make_heard(self, fields: Mapping[str, Any], way: Callable[..., None]) -> None:
+    def _make_heard(self, fields: Mapping[str, object], way: Callable[..., None]) -> None:
         """Tell the first value once before it counts.
 
         We see that we are joined with the node a little before the node sees it: what is said in
@@ -52,7 +52,7 @@ class Teller:
             way(fields)
             del self._scene.seen.spoken[told:]
 
-    def tell(self, fields: Mapping[str, Any]) -> None:
+    def tell(self, fields: Mapping[str, object]) -> None:
         """Say one message, and wait for the one that the node publishes when it hears it.
 
         Where none comes, wait until the node had its chance: its callbacks ran.
@@ -64,7 +64,7 @@ class Teller:
             turned = self._turns()
             spoken.settled = self._shows(before + 1) or turned
 
-    def tell_and_await_timer(self, fields: Mapping[str, Any]) -> None:
+    def tell_and_await_timer(self, fields: Mapping[str, object]) -> None:
         """Say one message, and wait until a timer of the node has published after it."""
         self._make_heard(fields, self.tell_and_await_timer)
         spoken = self._say(fields)
@@ -76,19 +76,19 @@ class Teller:
         """Say nothing for so long, by the node's own time."""
         self._scene.until_own(lambda: False, for_s)
 
-    def _say(self, fields: Mapping[str, Any]) -> Spoken | None:
+    def _say(self, fields: Mapping[str, object]) -> Spoken | None:
         """Say it; None where nobody is there to hear it."""
-        ear = self._ear()
-        if ear is None or not self._process.alive:
+        subscription = self._subscription()
+        if subscription is None or not self._process.alive:
             return None
-        return self._scene.probe.say(ear, nested(fields), FIRST_MESSAGE_WITHIN_S)
+        return self._scene.probe.say(subscription, nested(fields), FIRST_MESSAGE_WITHIN_S)
 
     def _turns(self) -> bool:
         """Wait until the node's callbacks have run. Whether they did; asked once where not."""
-        ear = self._ear()
-        if ear is None or not self._process.alive or self._stuck:
+        subscription = self._subscription()
+        if subscription is None or not self._process.alive or self._stuck:
             return False
-        self._stuck = not self._scene.turned(ear.node, TURNS_WITHIN_S)
+        self._stuck = not self._scene.turned(subscription.node, TURNS_WITHIN_S)
         return not self._stuck
 
     def _shows(self, count: int) -> bool:
@@ -107,7 +107,7 @@ class Teller:
             return True
         return self._silent >= SILENT_TIMES and not self._count()
 
-    def _ear(self) -> Endpoint | None:
+    def _subscription(self) -> Endpoint | None:
         return nearest_endpoint(
             self._scene.seen.graph, "subscription", self._heard.topic, self._heard.type
         )
@@ -122,7 +122,7 @@ class Teller:
         )
 
 
-def nested(fields: Mapping[str, Any]) -> dict[str, Any]:
+def nested(fields: Mapping[str, object]) -> dict[str, Any]:
     """Fields with dots in their names as fields in fields.
 
     >>> nested({"header.frame_id": "sonar", "range": 1.0})

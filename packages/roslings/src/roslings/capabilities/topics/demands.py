@@ -13,10 +13,10 @@ from roslings.capabilities.topics.faults.messages import (
     WrongText,
 )
 from roslings.capabilities.topics.faults.rhythm import Bursts, SentAgain, TooSlow, rate_fault
+from roslings.capabilities.topics.reasons import LostOnTheWay, NearTheLimits
 from roslings.course import RateContract, TopicContract
 from roslings.course.files import written
 from roslings.judge.demands import require_believable, require_steady
-from roslings.judge.faults import Inconclusive
 from roslings.judge.views import Demand, TopicView, text_pattern
 
 MOST_LOST_PART = 0.05
@@ -51,10 +51,7 @@ def require_enough(topic: TopicView, rate: Rate, limit: RateContract) -> None:
     After the longest watch, a rate at the very limit is what it was measured to be.
     """
     if not topic.heard.watched_to_bound and not rate.clear_of((limit.low_hz, limit.high_hz)):
-        raise Inconclusive(
-            f"too little evidence: {rate.hz:.3f} Hz (±{rate.uncertainty_hz:.3f}) was seen, too"
-            f" near to the limits, {limit.low_hz:g} Hz and {limit.high_hz:g} Hz; check again"
-        )
+        raise NearTheLimits(rate.hz, rate.uncertainty_hz, limit.low_hz, limit.high_hz)
 
 
 def require_carried(rate: Rate) -> None:
@@ -64,10 +61,7 @@ def require_carried(rate: Rate) -> None:
     """
     sent = len(rate.periods_s) + rate.lost
     if rate.lost > MOST_LOST_PART * sent:
-        raise Inconclusive(
-            f"this computer lost {rate.lost} of {sent} messages on their way, so it was too busy to"
-            " send them in time; close other programs and check again"
-        )
+        raise LostOnTheWay(rate.lost, sent)
 
 
 def say_something(topic: TopicView) -> None:

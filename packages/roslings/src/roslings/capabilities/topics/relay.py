@@ -5,24 +5,34 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
 
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.topics.faults import relay as faults
+from roslings.capabilities.topics.reasons import NothingCame
 from roslings.capabilities.topics.record import TOLD
 from roslings.course import NodeContract, TopicContract
+from roslings.course.contract import Plain
 from roslings.course.files import written
 from roslings.evidence import MessageSeen, Spoken
 from roslings.judge.demands import insist_on_at_most, most_similar
-from roslings.judge.faults import Inconclusive, NothingToJudge, NotLogged
-from roslings.judge.values import as_number, field_of, remark, same, shown
+from roslings.judge.faults import NotLogged
+from roslings.judge.faults.reasons import StoodStill
+from roslings.judge.values import (
+    Fields,
+    as_number,
+    field_of,
+    looks_of,
+    number_of,
+    same,
+    shown,
+)
 from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
-from roslings.matching import nearest_endpoint
+from roslings.seen.matching import nearest_endpoint
 
 FRESH_S = 1.0
 LONGEST_PAUSE_S = 0.1
 
-Wanted = Callable[[int, dict[str, Any]], Any]
+Wanted = Callable[[int, Fields], Plain | None]
 """What is to be shown after the n-th value, from n and the value; None where it is not asked."""
 
 
@@ -35,8 +45,8 @@ def hold_its_fields(topic: TopicView) -> None:
         for name, wanted in topic.contract.fields.items():
             found = field_of(content, name)
             if not same(found, wanted, topic.contract.numbers_within):
-                looks = remark(found, wanted)
-                raise faults.WrongField(topic.name, name, shown(wanted), shown(found) + looks)
+                looks = looks_of(found, wanted)
+                raise faults.WrongField(topic.name, name, shown(wanted), shown(found), looks)
 
 
 def carry_its_time(topic: TopicView) -> None:
@@ -44,20 +54,20 @@ def carry_its_time(topic: TopicView) -> None:
     for message in topic.messages:
         stamp = field_of(message.content, "header.stamp")
         if stamp is None:
-            raise NothingToJudge("the messages have no stamp")
-        stamp_s = stamp["sec"] + stamp["nanosec"] / NS_PER_S
+            raise NothingCame("no_stamp")
+        stamp_s = number_of(stamp, "sec") + number_of(stamp, "nanosec") / NS_PER_S
         if stamp_s == 0:
             raise faults.NoStamp(topic.name)
         if message.source_ns and abs(message.source_ns / NS_PER_S - stamp_s) > FRESH_S:
             raise faults.OldStamp(topic.name, message.source_ns / NS_PER_S - stamp_s)
 
 
-def _contents(topic: TopicView) -> list[dict[str, Any]]:
+def _contents(topic: TopicView) -> list[Fields]:
     if topic.type != topic.contract.type:
-        raise NothingToJudge(f"{topic.name} carries another type")
-    contents = [m.content for m in topic.messages if isinstance(m.content, dict)]
+        raise NothingCame("another_type", topic.name)
+    contents: list[Fields] = [m.content for m in topic.messages if isinstance(m.content, dict)]
     if not contents:
-        raise NothingToJudge(f"nothing came on {topic.name}")
+        raise NothingCame("nothing", topic.name)
     return contents
 
 
@@ -65,7 +75,7 @@ def _contents(topic: TopicView) -> list[dict[str, Any]]:
 
 
 @dataclass(frozen=True)
-class Turn:
+class RelayTurn:
     """One value that the node was told, and the last message that came before the next one."""
 
     number: int
@@ -75,15 +85,15 @@ class Turn:
     settled: bool
     """Its effect, and that of each value before it, came in time."""
 
-    def heard(self, name: str, with_the_one_before: bool) -> str:
-        """The value in words, and the one before it, where the node must remember that."""
+    def heard(self, name: str, with_the_one_before: bool) -> faults.Heard:
+        """The value, and the one before it, where the node must remember that."""
         told = [self.before, self.spoken] if with_the_one_before else [self.spoken]
-        values = [shown(field_of(each.content, name)) for each in told if each]
-        return f"{name} {', then '.join(values)} on {self.spoken.topic}"
+        values = tuple(shown(field_of(each.content, name)) for each in told if each)
+        return faults.Heard(name, values, self.spoken.topic)
 
 
 @dataclass(frozen=True)
-class Shown:
+class RelayedValue:
     """Where a node hears, and where it shows what it makes of that."""
 
     node: NodeContract
@@ -96,7 +106,7 @@ class Shown:
     """What it shows depends on the value before, too."""
 
 
-def show(place: Shown, wanted: Wanted) -> Demand[ExperimentView]:
+def show(place: RelayedValue, wanted: Wanted) -> Demand[ExperimentView]:
     """After each value, the place shows what is wanted."""
 
     def demand(experiment: ExperimentView) -> None:
@@ -108,19 +118,19 @@ def show(place: Shown, wanted: Wanted) -> Demand[ExperimentView]:
                 judged += 1
                 _judge(process, turn, place, value)
         if not judged:  # the topic or the subscription is missing, and another check says so
-            raise NothingToJudge(f"{place.node.executable} could not be told this")
+            raise NothingCame("not_told_this", place.node.executable)
 
     return demand
 
 
-def show_at_first(place: Shown, wanted: Any) -> Demand[ExperimentView]:
+def show_at_first(place: RelayedValue, wanted: Plain) -> Demand[ExperimentView]:
     """Before the first value is told, the place shows this."""
 
     def demand(experiment: ExperimentView) -> None:
         began_ns = [stage.at_ns for stage in experiment.seen.stages if stage.part == TOLD]
         heard = experiment.topic(place.topic)
         if not began_ns or heard.type != place.topic.type:
-            raise NothingToJudge(f"{place.node.executable} could not be told anything")
+            raise NothingCame("not_told", place.node.executable)
         for message in heard.messages:
             found = field_of(message.content, place.name)
             right = same(found, wanted, place.topic.numbers_within)
@@ -131,7 +141,7 @@ def show_at_first(place: Shown, wanted: Any) -> Demand[ExperimentView]:
     return demand
 
 
-def answer_each_once(place: Shown) -> Demand[ExperimentView]:
+def answer_each_once(place: RelayedValue) -> Demand[ExperimentView]:
     """No more messages than values were told.
 
     The first value is told once before it counts. Too few are the fault of another check.
@@ -141,14 +151,14 @@ def answer_each_once(place: Shown) -> Demand[ExperimentView]:
         told = len(experiment.seen.spoken)
         came = len(experiment.topic(place.topic).before_ctrl_c)
         if not told:
-            raise NothingToJudge(f"{place.node.executable} could not be told anything")
+            raise NothingCame("not_told", place.node.executable)
         if came > told + 1:
             raise faults.MoreThanAsked(place.topic.topic, told, came)
 
     return demand
 
 
-def _judge(process: ProcessView, turn: Turn, place: Shown, wanted: Any) -> None:
+def _judge(process: ProcessView, turn: RelayTurn, place: RelayedValue, wanted: Plain) -> None:
     found = field_of(turn.message.content if turn.message else None, place.name)
     if same(found, wanted, place.topic.numbers_within):
         return
@@ -161,7 +171,7 @@ def _judge(process: ProcessView, turn: Turn, place: Shown, wanted: Any) -> None:
     if turn.message is None:
         raise faults.DoesNotReact(*words, None)
     kind = faults.NotInfinite if _should_be_infinite(found, wanted) else faults.WrongReaction
-    raise kind(*words, shown(found), remark(found, wanted))
+    raise kind(*words, shown(found), looks_of(found, wanted))
 
 
 def _require_calm(stall_s: float) -> None:
@@ -171,18 +181,15 @@ def _require_calm(stall_s: float) -> None:
     value then says nothing.
     """
     if stall_s > LONGEST_PAUSE_S:
-        raise Inconclusive(
-            f"this computer stood still for {stall_s:.1f} s while your nodes ran;"
-            " close other programs and check again"
-        )
+        raise StoodStill(stall_s)
 
 
-def turns(experiment: ExperimentView, topic: TopicContract) -> Iterator[Turn]:
+def turns(experiment: ExperimentView, topic: TopicContract) -> Iterator[RelayTurn]:
     """Each value that was told, with what the topic said last before the next value."""
     spoken = experiment.seen.spoken
     publisher = nearest_endpoint(experiment.seen.graph, "publisher", topic.topic, topic.type)
     if publisher is None or publisher.type != topic.type:
-        raise NothingToJudge(f"nothing is published like {topic.topic}")
+        raise NothingCame("not_published", topic.topic)
     heard = experiment.seen.topics.get(publisher.topic)
     for number, each in enumerate(spoken):
         last = number + 1 == len(spoken)
@@ -194,10 +201,10 @@ def turns(experiment: ExperimentView, topic: TopicContract) -> Iterator[Turn]:
         ]
         before = spoken[number - 1] if number else None
         settled = all(earlier.settled for earlier in spoken[: number + 1])
-        yield Turn(number, each, before, said[-1] if said else None, settled)
+        yield RelayTurn(number, each, before, said[-1] if said else None, settled)
 
 
-def _should_be_infinite(found: Any, wanted: Any) -> bool:
+def _should_be_infinite(found: object, wanted: Plain) -> bool:
     goal, number = as_number(wanted), as_number(found)
     return goal is not None and not math.isfinite(goal) and number is not None
 
@@ -205,9 +212,7 @@ def _should_be_infinite(found: Any, wanted: Any) -> bool:
 # --- what a node writes of a value -------------------------------------------------------------
 
 
-def write_each(
-    node: NodeContract, texts: Callable[[dict[str, Any]], list[str]]
-) -> Demand[ExperimentView]:
+def write_each(node: NodeContract, texts: Callable[[Fields], list[str]]) -> Demand[ExperimentView]:
     """For each value, it writes the card's line with one of `texts(value)`; none: not asked."""
     template = written(node.log, node.node)
 
@@ -215,7 +220,7 @@ def write_each(
         process = experiment.process(node)
         asked = [allowed for s in experiment.seen.spoken if (allowed := texts(s.content))]
         if not asked:
-            raise NothingToJudge("it could not be told anything to write about")
+            raise NothingCame("nothing_to_write")
         for allowed in asked:
             lines = [template.format(text=text) for text in allowed]
             if not any(line in text for line in lines for text in process.texts):

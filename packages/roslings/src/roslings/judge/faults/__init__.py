@@ -10,6 +10,7 @@ from roslings.judge.faults.base import (
     NothingToJudge,
     Unmet,
 )
+from roslings.judge.faults.ends import End, Went
 from roslings.judge.faults.files import (
     BuildFailed,
     InvalidPackageXml,
@@ -21,6 +22,9 @@ from roslings.judge.faults.files import (
     WrongBuildType,
 )
 from roslings.judge.faults.graph import (
+    CALLS,
+    EndOfTopic,
+    EndpointKind,
     NodeTwice,
     NoTopic,
     NotTheAskedGraph,
@@ -47,9 +51,7 @@ from roslings.judge.faults.processes import (
     UncleanExit,
 )
 from roslings.judge.faults.qos import (
-    CALLS,
-    EndpointKind,
-    Matched,
+    MatchedPolicies,
     NotThisQos,
     QosCannotMatch,
     matched,
@@ -71,6 +73,8 @@ __all__ = [
     "DidNotComeUp",
     "DoesNotEnd",
     "DoesNotRepeat",
+    "End",
+    "EndOfTopic",
     "EndedInTheSoak",
     "EndedWithError",
     "EndpointKind",
@@ -80,7 +84,7 @@ __all__ = [
     "InvalidPackageXml",
     "LeavesProcesses",
     "LoggedAgain",
-    "Matched",
+    "MatchedPolicies",
     "MissingFile",
     "NoExecutable",
     "NoPicture",
@@ -102,6 +106,7 @@ __all__ = [
     "UncleanExit",
     "UnlistedDependency",
     "Unmet",
+    "Went",
     "WrongBuildType",
     "WrongNodeName",
     "WrongTopic",

@@ -2,66 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
-SENTENCES = ("expected", "measured", "why", "hint", "mend")
+from roslings.judge.faults.sentences import Plain, Told
 
-
-class Sentence:
-    """One that is written in a class as a template: what stands in braces comes from the fault."""
-
-    def __init__(self, template: str) -> None:
-        self.template = template
-
-    def __get__(self, fault: Any, kind: type[Any]) -> str:
-        """Filled in; of the class itself, the template. Raises AttributeError for other names."""
-        return self.template if fault is None else self.template.format_map(_Attributes(fault))
-
-
-class _Attributes(Mapping[str, Any]):
-    """Those of a fault, by their names: its fields, and what its properties make of them."""
-
-    def __init__(self, fault: Any) -> None:
-        self._fault = fault
-
-    def __getitem__(self, name: str) -> Any:
-        return getattr(self._fault, name)
-
-    def __iter__(self) -> Any:
-        return iter(vars(self._fault))
-
-    def __len__(self) -> int:
-        return len(vars(self._fault))
+SENTENCES = ("expected", "measured", "headline", "why", "hint", "mend")
 
 
 @dataclass(eq=False)
-class Fault(Exception):
+class Fault(Told, Exception):
     """A failed check. Subclasses carry the numbers, and have the sentences as templates.
 
         expected = "a node that serves {service}"
 
-    A sentence in which there is something to decide is a property (where it takes the place of a
-    template, mypy wants `type: ignore[override]`). A brace itself is written twice.
+    A sentence in which there is something to decide is `one_of` several whole templates, and one
+    that counts something a `plural`; see `sentences.py`. What a template names in braces is a
+    field or a property. A brace itself is written twice.
     """
 
+    ROOM: ClassVar[str] = "faults"
+    SENTENCES: ClassVar[tuple[str, ...]] = SENTENCES
     why: ClassVar[str] = ""
     was_seen: ClassVar[bool] = False
     """What is wrong was seen, not missed: it stands even where other evidence was dropped."""
     blocks: ClassVar[bool] = True
     """Nothing can be said by the checks that need this one."""
+    UNTOLD: ClassVar[tuple[str, ...]] = ("log",)
+    """Fields that no verdict has among its fields: it has the log beside them, and a student may
+    have to find out the others."""
     log: tuple[str, ...] = field(default=(), kw_only=True)
 
     def __init_subclass__(cls) -> None:
-        """Texts under the names of sentences become templates; a field of such a name stays one."""
+        """Who has a hint of its own has no mend of another class."""
         super().__init_subclass__()
-        fields = vars(cls).get("__annotations__", {})
-        for name in SENTENCES:
-            if name not in fields and isinstance(text := vars(cls).get(name), str):
-                setattr(cls, name, Sentence(text))
         if "hint" in vars(cls) and "mend" not in vars(cls):
-            setattr(cls, "mend", Sentence(""))  # noqa: B010 - the class above has its own hint
+            setattr(cls, "mend", Plain(""))  # noqa: B010 - the class above has its own hint
 
     @property
     def expected(self) -> str:
@@ -91,12 +67,43 @@ class Fault(Exception):
     def __str__(self) -> str:
         return f"expected {self.expected}; measured {self.measured}"
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """With all of its fields, whichever way they were given."""
+        return _again, (type(self), dict(vars(self)), self.args)
 
-class Inconclusive(Exception):
+
+E = TypeVar("E", bound=Exception)
+
+
+def _again(kind: type[E], fields: dict[str, Any], args: tuple[Any, ...]) -> E:
+    error = kind.__new__(kind, *args)
+    vars(error).update(fields)
+    return error
+
+
+class Reason(Told, Exception):
+    """Why a check says neither yes nor no: in a template of its class, or in what it was given."""
+
+    ROOM: ClassVar[str] = "reasons"
+
+    @property
+    def text(self) -> str:
+        """The words it was given."""
+        return " ".join(map(str, self.args))
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """With all of its fields, whichever way they were given."""
+        return _again, (type(self), dict(vars(self)), self.args)
+
+
+class Inconclusive(Reason):
     """It cannot be told, mostly since the machine was too busy: no verdict, and the reason."""
 
 
-class NothingToJudge(Exception):
+class NothingToJudge(Reason):
     """What this check looks at is not there, and another check has already said so."""
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
-from roslings.judge.faults.python_words import syntax_hint
+from roslings.judge.faults.python_words import SYNTAX_HINTS, syntax_mistake
+from roslings.judge.faults.sentences import one_of
 
 
 @dataclass(eq=False)
@@ -17,10 +18,7 @@ class InvalidPackageXml(Fault):
     hint = "Open package.xml and mend the line named above. Compare with the lesson's example."
     expected = "a valid package.xml"
 
-    @property
-    def measured(self) -> str:
-        """The first problem."""
-        return self.problem
+    measured = "{problem}"
 
 
 @dataclass(eq=False)
@@ -33,10 +31,15 @@ class WrongBuildType(Fault):
     expected = "the build type {wanted}"
     hint = "Look at <build_type> inside <export> at the end of package.xml."
 
+    measured = one_of(
+        another="the build type {found}",
+        none="no build type in package.xml",
+    )
+
     @property
-    def measured(self) -> str:
-        """The kind that is there."""
-        return f"the build type {self.found}" if self.found else "no build type in package.xml"
+    def which_measured(self) -> str:
+        """Whether one is there."""
+        return "another" if self.found else "none"
 
 
 @dataclass(eq=False)
@@ -58,17 +61,17 @@ class SyntaxErrorInCode(Fault):
     why = "Python reads a whole file before it runs one line of it."
     expected = "Python code that Python can read"
 
-    @property
-    def measured(self) -> str:
-        """File, line and Python's words."""
-        return self.place
+    measured = "{place}"
+
+    hint = one_of(
+        **SYNTAX_HINTS,
+        other="Look at that line and the one above it: a missing colon, bracket or quotation mark?",
+    )
 
     @property
-    def hint(self) -> str:
-        """What these words ask for."""
-        return syntax_hint(self.place) or (
-            "Look at that line and the one above it: a missing colon, bracket or quotation mark?"
-        )
+    def which_hint(self) -> str:
+        """What Python's words ask for."""
+        return syntax_mistake(self.place) or "other"
 
 
 @dataclass(eq=False)
@@ -83,15 +86,16 @@ class UnlistedDependency(Fault):
     expected = "{package} in package.xml, because {place} imports it"
     measured = "package.xml does not name {package}"
 
+    hint = one_of(
+        library="Add one line: this library has the name {package} in package.xml.",
+        package="Look at the <exec_depend> lines in package.xml: one for each ROS package that you"
+        " import.",
+    )
+
     @property
-    def hint(self) -> str:
-        """Where to look."""
-        if self.package.startswith("python3-"):
-            return f"Add one line: this library has the name {self.package} in package.xml."
-        return (
-            "Look at the <exec_depend> lines in package.xml: one for each ROS package that you"
-            " import."
-        )
+    def which_hint(self) -> str:
+        """A Python library, or a package of ROS."""
+        return "library" if self.package.startswith("python3-") else "package"
 
 
 @dataclass(eq=False)
@@ -114,10 +118,15 @@ class NotAnAmentPackage(Fault):
     hint = "Mend package.xml: name, e-mail and <build_type>ament_python</build_type>."
     expected = "colcon takes it for a ROS package (ros.ament_python)"
 
+    measured = one_of(
+        another="colcon took it for {found}",
+        nothing="colcon took it for nothing that it knows",
+    )
+
     @property
-    def measured(self) -> str:
-        """What colcon took it for."""
-        return f"colcon took it for {self.found or 'nothing that it knows'}"
+    def which_measured(self) -> str:
+        """Whether colcon took it for anything."""
+        return "another" if self.found else "nothing"
 
 
 @dataclass(eq=False)
@@ -131,8 +140,12 @@ class NoExecutable(Fault):
     expected = "`ros2 run {package} {wanted}` finds an executable"
     hint = "Look at entry_points in setup.py: one text 'name = module:function' for each node."
 
+    measured = one_of(
+        some="the package has these executables: {found}",
+        none="the package has these executables: none",
+    )
+
     @property
-    def measured(self) -> str:
-        """What there is."""
-        there = ", ".join(self.found) if self.found else "none"
-        return f"the package has these executables: {there}"
+    def which_measured(self) -> str:
+        """Whether there are others."""
+        return "some" if self.found else "none"

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Literal
 
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.ends import End
+from roslings.judge.faults.sentences import Text, one_of, plural
 
 READ_THE_LINES = (
     "Read the last lines below: the last one names the error, the one above it the place."
 )
 
+Does = Literal["task", "calls", "sends", "writes"]
+"""What a program with one task has to do."""
 
-def _begin(when: str) -> str:
-    """The case that is spoken of, as the beginning of a sentence."""
-    return f"{when}, " if when else ""
+
+def shows_error(log: Sequence[str]) -> bool:
+    """The last lines of a process hold a traceback."""
+    return any(line.startswith("Traceback") for line in log)
 
 
 @dataclass(eq=False)
@@ -21,30 +28,41 @@ class DidNotComeUp(Fault):
     """The process ended before its node could do anything, or never made a node."""
 
     executable: str
-    how: str
-    when: str = field(default="", kw_only=True)
+    after_s: float | None = None
+    """Seconds from its start until it ended; None: it runs, and has no node."""
+    end: End | None = None
+    when: Text = field(default="", kw_only=True)
     was_seen = True
     why = "A node that ends at once can neither send nor receive."
 
-    @property
-    def expected(self) -> str:
-        """A running node."""
-        return f"{_begin(self.when)}{self.executable} starts, makes a node and keeps running"
+    expected = one_of(
+        always="{executable} starts, makes a node and keeps running",
+        when="{when}, {executable} starts, makes a node and keeps running",
+    )
+    measured = one_of(
+        ended="it ended by itself after {after_s:.1f} s ({end})",
+        no_node="it runs, but no node of it appeared in the graph",
+    )
+    hint = one_of(
+        read=READ_THE_LINES,
+        by_hand="Start it by hand with `ros2 run` and read the last line of what it prints. "
+        "Without an error: what does main() do last?",
+    )
 
     @property
-    def measured(self) -> str:
+    def which_expected(self) -> str:
+        """Whether a case is spoken of."""
+        return "when" if self.when else "always"
+
+    @property
+    def which_measured(self) -> str:
         """How it went."""
-        return self.how
+        return "no_node" if self.after_s is None else "ended"
 
     @property
-    def hint(self) -> str:
-        """What to try."""
-        if any(line.startswith("Traceback") for line in self.log):
-            return READ_THE_LINES
-        return (
-            "Start it by hand with `ros2 run` and read the last line of what it prints. "
-            "Without an error: what does main() do last?"
-        )
+    def which_hint(self) -> str:
+        """Whether the last lines tell."""
+        return "read" if shows_error(self.log) else "by_hand"
 
 
 @dataclass(eq=False)
@@ -52,13 +70,28 @@ class EndedWithError(Fault):
     """A program that has one task, and then ends, ended with an error before it had done it."""
 
     executable: str
-    task: str
-    status: str
+    does: Does
+    """What it has to do."""
+    end: End
+    what: str = ""
+    """What it calls, to what it sends, or what it writes."""
+    when: Text = ""
+    """In which case it writes that."""
     was_seen = True
     why = "An error that nobody catches ends the program at once."
     hint = READ_THE_LINES
-    expected = "{executable} {task}"
-    measured = "it ended with an error before that ({status})"
+    expected = one_of(
+        task="{executable} does its task",
+        calls="{executable} calls {what}",
+        sends="{executable} sends a goal to {what}",
+        writes="{executable} writes {what!r} {when}",
+    )
+    measured = "it ended with an error before that ({end})"
+
+    @property
+    def which_expected(self) -> str:
+        """What it has to do."""
+        return self.does
 
 
 @dataclass(eq=False)
@@ -67,28 +100,31 @@ class StoppedByItself(Fault):
 
     executable: str
     after_s: float
-    how: str
-    when: str = field(default="", kw_only=True)
+    end: End
+    when: Text = field(default="", kw_only=True)
     simulated: bool = field(default=False, kw_only=True)
     """The seconds are of simulated time, which ran faster than ours."""
     was_seen = True
     why = "A robot's node runs until somebody stops it."
 
-    @property
-    def expected(self) -> str:
-        """A node that stays."""
-        return f"{_begin(self.when)}{self.executable} runs until Ctrl-C"
+    hint = READ_THE_LINES
+    expected = one_of(
+        always="{executable} runs until Ctrl-C", when="{when}, {executable} runs until Ctrl-C"
+    )
+    measured = one_of(
+        real="it ended by itself after {after_s:.1f} s ({end})",
+        simulated="it ended by itself after {after_s:.1f} s of simulated time ({end})",
+    )
 
     @property
-    def measured(self) -> str:
-        """When it ended, and how."""
-        time = " of simulated time" if self.simulated else ""
-        return f"it ended by itself after {self.after_s:.1f} s{time} ({self.how})"
+    def which_expected(self) -> str:
+        """Whether a case is spoken of."""
+        return "when" if self.when else "always"
 
     @property
-    def hint(self) -> str:
-        """What to try."""
-        return READ_THE_LINES
+    def which_measured(self) -> str:
+        """Whose seconds these are."""
+        return "simulated" if self.simulated else "real"
 
 
 @dataclass(eq=False)
@@ -98,15 +134,21 @@ class EndedInTheSoak(StoppedByItself):
     blocks = False
     why = "A robot's node runs until somebody stops it, not only for the first seconds."
 
+    hint = one_of(
+        read=READ_THE_LINES,
+        by_hand="Start it by hand with `ros2 run`, and wait {longer_s:.0f} s. What counts up, "
+        "fills up or runs out while it runs?",
+    )
+
     @property
-    def hint(self) -> str:
-        """What to try."""
-        if any(line.startswith("Traceback") for line in self.log):
-            return READ_THE_LINES
-        return (
-            f"Start it by hand with `ros2 run`, and wait {self.after_s + 5:.0f} s. What counts up, "
-            "fills up or runs out while it runs?"
-        )
+    def which_hint(self) -> str:
+        """Whether the last lines tell."""
+        return "read" if shows_error(self.log) else "by_hand"
+
+    @property
+    def longer_s(self) -> float:
+        """So long, and it will have ended."""
+        return self.after_s + 5
 
 
 @dataclass(eq=False)
@@ -128,9 +170,14 @@ class PrintsWithoutEnd(Fault):
         "something is new."
     )
     expected = "{executable} writes a line when there is something to tell, and waits in between"
-    measured = (
-        "it wrote {lines:,} lines ({megabytes:.1f} MB) in {after_s:.1f} s and did not stop, so it"
-        " was ended"
+    measured = plural(
+        "lines",
+        one="it wrote {lines:,} line ({megabytes:.1f} MB) in {after_s:.1f} s and did not stop, so"
+        " it"
+        " was ended",
+        other="it wrote {lines:,} lines ({megabytes:.1f} MB) in {after_s:.1f} s and did not stop,"
+        " so"
+        " it was ended",
     )
 
     @property
@@ -153,12 +200,15 @@ class DoesNotEnd(Fault):
     hint = "Does your code catch KeyboardInterrupt and go on, or wait in a loop that never ends?"
     expected = "{executable} ends within {within_s:g} s of Ctrl-C"
 
+    measured = one_of(
+        late="it ended after {after_s:.1f} s",
+        never="it was still running and had to be killed",
+    )
+
     @property
-    def measured(self) -> str:
-        """The time that it took."""
-        if self.after_s is None:
-            return "it was still running and had to be killed"
-        return f"it ended after {self.after_s:.1f} s"
+    def which_measured(self) -> str:
+        """Whether it ended at all."""
+        return "never" if self.after_s is None else "late"
 
 
 @dataclass(eq=False)
@@ -166,7 +216,8 @@ class UncleanExit(Fault):
     """Ctrl-C ends the node with an error."""
 
     executable: str
-    how: str
+    end: End
+    has_traceback: bool = False
     was_seen = True
     why = (
         "Much tutorial code ends like this. It is a small thing, but other programs take the "
@@ -179,10 +230,12 @@ class UncleanExit(Fault):
     )
     expected = "{executable} ends after Ctrl-C with exit code 0 and no traceback"
 
+    measured = one_of(plain="{end}", traceback="{end}, with a traceback")
+
     @property
-    def measured(self) -> str:
-        """How it ended."""
-        return self.how
+    def which_measured(self) -> str:
+        """What it wrote."""
+        return "traceback" if self.has_traceback else "plain"
 
 
 @dataclass(eq=False)
@@ -196,4 +249,8 @@ class LeavesProcesses(Fault):
     hint = "What does your node start besides itself, and who ends it?"
     mend = "End what your node starts (subprocess, multiprocessing) before the node itself ends."
     expected = "nothing that {executable} started outlives it"
-    measured = "{count} process(es) still ran after it had ended"
+    measured = plural(
+        "count",
+        one="{count} process still ran after it had ended",
+        other="{count} processes still ran after it had ended",
+    )

@@ -5,22 +5,16 @@ What is advised is always what the card asks of this one endpoint, as Python for
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from roslings.evidence import Qos
 from roslings.judge.faults.base import Fault
-
-EndpointKind = Literal["publisher", "subscription"]
-CALLS: Mapping[EndpointKind, str] = {
-    "publisher": "create_publisher",
-    "subscription": "create_subscription",
-}
-"""Where the code gives the quality of service."""
+from roslings.judge.faults.graph import CALLS, EndpointKind
+from roslings.judge.faults.sentences import one_of, some_of
 
 
-class Matched(NamedTuple):
+class MatchedPolicies(NamedTuple):
     """The two policies that a card names for each topic, in rclpy's words, lower case."""
 
     reliability: str
@@ -35,23 +29,10 @@ class Matched(NamedTuple):
         return self._asdict()
 
 
-USUAL = Matched("reliable", "volatile")
+USUAL = MatchedPolicies("reliable", "volatile")
 ENUMS = {"reliability": "ReliabilityPolicy", "durability": "DurabilityPolicy"}
-OTHERS_STAY = "A depth of your own and other words, such as a deadline, stay."
-SENSORS = Matched("best_effort", "volatile")
+SENSORS = MatchedPolicies("best_effort", "volatile")
 """As `qos_profile_sensor_data` is."""
-
-IF_OTHERWISE = {
-    ("reliability", "reliable"): "Best effort does not send again what was lost on the way: it is"
-    " never heard.",
-    ("reliability", "best_effort"): "Reliable means: send the old message again, and let the new"
-    " one wait. On Wi-Fi, messages then come seconds late.",
-    ("durability", "transient_local"): "Volatile keeps nothing: who comes late does not hear what"
-    " was said before.",
-    ("durability", "volatile"): "Transient local brings what was said before: who comes late takes"
-    " it for new.",
-}
-"""Policy and the value that is asked: what is bad about the other one."""
 
 
 @dataclass(eq=False)
@@ -60,9 +41,9 @@ class OtherQos(Fault):
 
     topic: str
     kind: EndpointKind
-    wanted: Matched
+    wanted: MatchedPolicies
     """The card's."""
-    found: Matched
+    found: MatchedPolicies
 
     @property
     def advised(self) -> dict[str, str]:
@@ -92,25 +73,37 @@ class OtherQos(Fault):
         """The same in one word of rclpy's; empty where there is none."""
         return {USUAL: "10", SENSORS: "qos_profile_sensor_data"}.get(self.wanted, "")
 
-    @property
-    def hint(self) -> str:
-        """Whom to ask, and where it is set."""
-        return (
-            f"`ros2 topic info -v {self.topic}` shows what each side offers and asks. Which QoS"
-            f" does {CALLS[self.kind]}(...) get?"
-        )
+    hint = one_of(
+        publisher="`ros2 topic info -v {topic}` shows what each side offers and asks. Which QoS"
+        " does"
+        " create_publisher(...) get?",
+        subscription="`ros2 topic info -v {topic}` shows what each side offers and asks. Which QoS"
+        " does create_subscription(...) get?",
+    )
+    mend = some_of(
+        usual="Give {call}(...) for {topic} the number 10 in place of its QoS profile: that is"
+        " reliable, volatile. Where you need a profile, for a deadline say: {profile}.",
+        profile="Give {call}(...) for {topic} {profile}, from rclpy.qos.",
+        short="{shorter} is such a profile.",
+        others="A depth of your own and other words, such as a deadline, stay.",
+    )
 
     @property
-    def mend(self) -> str:
+    def which_hint(self) -> str:
+        """Where it is set."""
+        return self.kind
+
+    @property
+    def which_mend(self) -> tuple[str, ...]:
         """Which call gets which profile."""
-        call = f"{CALLS[self.kind]}(...) for {self.topic}"
         if self.wanted == USUAL:
-            return (
-                f"Give {call} the number 10 in place of its QoS profile: that is {USUAL}. Where you"
-                f" need a profile, for a deadline say: {self.profile}."
-            )
-        short = f" {self.shorter} is such a profile." if self.shorter else ""
-        return f"Give {call} {self.profile}, from rclpy.qos.{short} {OTHERS_STAY}"
+            return ("usual",)
+        return ("profile", "short", "others") if self.shorter else ("profile", "others")
+
+    @property
+    def call(self) -> str:
+        """Where the code gives the quality of service."""
+        return CALLS[self.kind]
 
 
 @dataclass(eq=False)
@@ -124,53 +117,86 @@ class QosCannotMatch(OtherQos):
         """The policies that keep them apart."""
         return qos_conflicts(self.kind, self.found, self.wanted)
 
-    @property
-    def expected(self) -> str:
-        """What the other side is."""
-        other = self.wanted.policies
-        sides = " and ".join(f"{policy} {other[policy]}" for policy in self.conflicts)
-        return f"a {self.kind} on {self.topic} whose QoS works with {sides}"
+    expected = one_of(
+        publisher_reliability="a publisher on {topic} whose QoS works with reliability"
+        " {wanted.reliability}",
+        publisher_durability="a publisher on {topic} whose QoS works with durability"
+        " {wanted.durability}",
+        publisher_both="a publisher on {topic} whose QoS works with reliability"
+        " {wanted.reliability} and durability {wanted.durability}",
+        subscription_reliability="a subscription on {topic} whose QoS works with reliability"
+        " {wanted.reliability}",
+        subscription_durability="a subscription on {topic} whose QoS works with durability"
+        " {wanted.durability}",
+        subscription_both="a subscription on {topic} whose QoS works with reliability"
+        " {wanted.reliability} and durability {wanted.durability}",
+    )
+    measured = one_of(
+        reliability="reliability is {found.reliability}: the two can never be joined",
+        durability="durability is {found.durability}: the two can never be joined",
+        both="reliability is {found.reliability} and durability is {found.durability}: the two can"
+        " never be joined",
+    )
 
     @property
-    def measured(self) -> str:
-        """What this side is."""
-        ours = self.found.policies
-        own = " and ".join(f"{policy} is {ours[policy]}" for policy in self.conflicts)
-        return f"{own}: the two can never be joined"
+    def which_expected(self) -> str:
+        """What the other side is."""
+        return f"{self.kind}_{self.which_measured}"
+
+    @property
+    def which_measured(self) -> str:
+        """What keeps them apart."""
+        return self.conflicts[0] if len(self.conflicts) == 1 else "both"
 
 
 @dataclass(eq=False)
 class NotThisQos(OtherQos):
     """The quality of service would match, and is not the asked one."""
 
-    expected = "a {kind} on {topic} with {wanted}"
+    expected = one_of(
+        publisher="a publisher on {topic} with {wanted}",
+        subscription="a subscription on {topic} with {wanted}",
+    )
     measured = "it has {found}"
 
+    why = some_of(
+        reliable="Best effort does not send again what was lost on the way: it is never heard.",
+        best_effort="Reliable means: send the old message again, and let the new one wait. On"
+        " Wi-Fi, messages then come seconds late.",
+        transient_local="Volatile keeps nothing: who comes late does not hear what was said"
+        " before.",
+        volatile="Transient local brings what was said before: who comes late takes it for new.",
+    )
+
     @property
-    def why(self) -> str:  # type: ignore[override]
+    def which_expected(self) -> str:
+        """What it is."""
+        return self.kind
+
+    @property
+    def which_why(self) -> tuple[str, ...]:
         """What is bad about each policy that is another one."""
         ours = self.found.policies
-        return " ".join(
-            IF_OTHERWISE[policy, value]
-            for policy, value in self.wanted.policies.items()
-            if value != ours[policy]
-        )
+        asked = self.wanted.policies.items()
+        return tuple(value for policy, value in asked if value != ours[policy])
 
 
-def matched(qos: Qos) -> Matched:
+def matched(qos: Qos) -> MatchedPolicies:
     """Of all that was seen, what a card names for each topic."""
-    return Matched(qos.reliability, qos.durability)
+    return MatchedPolicies(qos.reliability, qos.durability)
 
 
-def qos_conflicts(kind: EndpointKind, ours: Matched, theirs: Matched) -> tuple[str, ...]:
+def qos_conflicts(
+    kind: EndpointKind, ours: MatchedPolicies, theirs: MatchedPolicies
+) -> tuple[str, ...]:
     """The policies for which an endpoint cannot be joined with the contract's other side.
 
     DDS joins a publisher and a subscription where the publisher offers at least what the
-    subscription asks for (OMG DDS 1.4, 2.2.3; the same rule as rclpy's
-    qos_check_compatible).
+    subscription asks for. This is OMG DDS 1.4, 2.2.3, and the same rule as rclpy's
+    qos_check_compatible.
     """
     offered, requested = (ours, theirs) if kind == "publisher" else (theirs, ours)
-    weak = Matched("best_effort", "volatile").policies
+    weak = MatchedPolicies("best_effort", "volatile").policies
     asked = requested.policies
     return tuple(
         policy

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.sentences import one_of
 
 
 @dataclass(eq=False)
@@ -21,12 +22,15 @@ class SpeaksOnlyWhenObserved(Fault):
     )
     expected = "{wanted_hz:g} Hz on {topic}, also while only your own nodes run"
 
+    measured = one_of(
+        slow="while only your own nodes ran, your listener heard {hz:.2f} messages a second",
+        silent="while only your own nodes ran, your listener heard next to nothing",
+    )
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """What the listener wrote."""
-        if self.hz is None:
-            return "while only your own nodes ran, your listener heard next to nothing"
-        return f"while only your own nodes ran, your listener heard {self.hz:.2f} messages a second"
+        return "silent" if self.hz is None else "slow"
 
 
 @dataclass(eq=False)
@@ -41,12 +45,14 @@ class WritesWhatWasNotSent(Fault):
     mend = "Write a line in the callback alone, once for each message that came."
     expected = "{wanted_hz:g} Hz on {topic}, also while only your own nodes run"
 
+    measured = one_of(
+        some="while only your own nodes ran, your listener wrote that it heard enough, but the"
+        " network carried {hz:.2f} messages a second",
+        none="while only your own nodes ran, your listener wrote that it heard enough, but the"
+        " network carried next to no messages",
+    )
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """What was on the network."""
-        often = "next to no" if self.hz is None else f"{self.hz:.2f}"
-        each = "" if self.hz is None else " a second"
-        return (
-            "while only your own nodes ran, your listener wrote that it heard enough, but the"
-            f" network carried {often} messages{each}"
-        )
+        return "none" if self.hz is None else "some"

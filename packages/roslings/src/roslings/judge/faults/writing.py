@@ -4,11 +4,34 @@ from __future__ import annotations
 
 import difflib
 from dataclasses import dataclass, field
+from typing import Literal
 
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.sentences import SentencePart, Text, one_of, plural
 
 ALIKE = 0.6
 """Lines that have so much in common are meant to be the same."""
+
+
+@dataclass(frozen=True)
+class PlaceInCode(SentencePart):
+    """Where a line of a node's code stands."""
+
+    place: Literal["message", "answer", "feedback", "no_server", "case"]
+    case: str = ""
+    """Of `case`, in the card's words."""
+    text = one_of(
+        message="in the function that has the message",
+        answer="where your code has the answer",
+        feedback="in the function that you give as feedback_callback",
+        no_server="where the wait for the server gave back False",
+        case="where your code learns that {case}",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """Which one it is."""
+        return self.place
 
 
 @dataclass(eq=False)
@@ -18,36 +41,43 @@ class NotLogged(Fault):
     executable: str
     wanted: str
     found: str | None
-    when: str = field(default="", kw_only=True)
-    place: str = field(default="in the function that has the message", kw_only=True)
+    when: Text = field(default="", kw_only=True)
+    place: Text = field(default=PlaceInCode("message"), kw_only=True)
     why = "The log is the first place to look when a robot does something strange."
 
-    @property
-    def expected(self) -> str:
-        """The line, and when it is asked for."""
-        begin = f"{self.when}, " if self.when else ""
-        return f"{begin}{self.executable} writes {self.wanted!r}"
+    expected = one_of(
+        always="{executable} writes {wanted!r}", when="{when}, {executable} writes {wanted!r}"
+    )
+    measured = one_of(
+        nothing="it wrote nothing",
+        alike="the nearest line is {found!r}",
+        other="it wrote {found!r}",
+    )
+    hint = one_of(
+        alike="Compare the two lines above, letter by letter: words, numbers, signs, spaces.",
+        other="Which line of your code writes to the log {place}?",
+    )
+    mend = one_of(other="Write it with self.get_logger().info(...) {place}.")
 
     @property
-    def measured(self) -> str:
+    def which_expected(self) -> str:
+        """Whether it is asked for in one case alone."""
+        return "when" if self.when else "always"
+
+    @property
+    def which_measured(self) -> str:
         """The most similar line, or another one."""
-        if not self.found:
-            return "it wrote nothing"
-        alike = _are_alike(self.wanted, self.found)
-        return f"{'the nearest line is' if alike else 'it wrote'} {self.found!r}"
+        return self.which_hint if self.found else "nothing"
 
     @property
-    def hint(self) -> str:
+    def which_hint(self) -> str:
         """What to compare, or how to write a line."""
-        if self.found and _are_alike(self.wanted, self.found):
-            return "Compare the two lines above, letter by letter: words, numbers, signs, spaces."
-        return f"Which line of your code writes to the log {self.place}?"
+        return "alike" if self.found and _are_alike(self.wanted, self.found) else "other"
 
     @property
-    def mend(self) -> str:
-        """How a line is written."""
-        alike = self.found and _are_alike(self.wanted, self.found)
-        return "" if alike else f"Write it with self.get_logger().info(...) {self.place}."
+    def which_mend(self) -> str:
+        """How a line is written, where the two are not to be compared."""
+        return "" if self.which_hint == "alike" else "other"
 
 
 @dataclass(eq=False)
@@ -61,7 +91,9 @@ class LoggedAgain(Fault):
     hint = "Is the line logged in two places? One message is one call of get_logger().info(...)."
     was_seen = True
     expected = "{executable} writes each line once for each message"
-    measured = "it wrote {line!r} {times} times"
+    measured = plural(
+        "times", one="it wrote {line!r} {times} time", other="it wrote {line!r} {times} times"
+    )
 
 
 def _are_alike(wanted: str, found: str) -> bool:
@@ -80,15 +112,18 @@ class DoesNotRepeat(Fault):
     hint = "Which function does create_subscription get, and what does it write?"
     mend = "Give create_subscription your callback, and let the callback log msg.data."
 
-    @property
-    def expected(self) -> str:
-        """The echo."""
-        return f"it writes {self.template.format(text=self.said)!r}"
+    expected = "it writes {line!r}"
+    measured = one_of(another="it wrote {wrote!r}", nothing="it wrote nothing")
 
     @property
-    def measured(self) -> str:
-        """What it wrote."""
-        return f"it wrote {self.wrote!r}" if self.wrote else "it wrote nothing"
+    def which_measured(self) -> str:
+        """Whether it wrote anything."""
+        return "another" if self.wrote else "nothing"
+
+    @property
+    def line(self) -> str:
+        """The echo."""
+        return self.template.format(text=self.said)
 
 
 @dataclass(eq=False)

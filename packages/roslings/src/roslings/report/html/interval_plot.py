@@ -7,8 +7,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from ros2_on_pip.language import said
 from ros2_on_pip.markup import Markup, joined, tag
-from roslings.report.html.intervals import Asked, Interval, Watched
+from roslings.report.html.intervals import Interval, RequiredRate, TopicIntervals
 from roslings.report.html.scale import Axis, Unit, time_text, unit_for
 
 LEFT, RIGHT, TOP, BOTTOM = 62.0, 14.0, 26.0, 42.0
@@ -16,12 +17,22 @@ MOST_DOTS_PER_PIXEL = 0.4
 ROOM_ABOVE = 1.15
 USUAL, CLIP_AT_USUAL, CLIP_AT_ASKED = 0.95, 2.5, 2.0
 CROSS, ARROW = 5.0, 5.0
+EVEN = (
+    "{count} periods of {topic}, all of {period}, as far as the steps of the simulated clock tell."
+)
+SPREAD = (
+    "{count} periods of {topic}, the shortest {shortest}, the longest {longest}, half of them at"
+    " most {half}."
+)
 
 
-def interval_plot(watched: Watched, width: float, height: float) -> Markup:
+def interval_plot(watched: TopicIntervals, width: float, height: float) -> Markup:
     """The picture for a topic with at least one interval; lengths in CSS pixels."""
-    simulated = "simulated " if watched.experiment.clock == "sim" else ""
-    across = f"{simulated}seconds since the first message"
+    across = (
+        said("page.plot.simulated", "simulated seconds since the first message")
+        if watched.experiment.clock == "sim"
+        else said("page.plot.real", "seconds since the first message")
+    )
     plot = _Plot(watched.intervals, watched.asked, across, width, height)
     return tag(
         "svg",
@@ -35,31 +46,40 @@ def interval_plot(watched: Watched, width: float, height: float) -> Markup:
     )
 
 
-def describe(watched: Watched) -> str:
+def describe(watched: TopicIntervals) -> str:
     """The plot in sentences: its text alternative."""
     periods_s = sorted(each.period_s for each in watched.intervals)
     name = watched.seen.name
-    shortest, longest = time_text(periods_s[0]), time_text(periods_s[-1])
-    half = f"half of them at most {time_text(statistics.median(periods_s))}"
-    spread = f"the shortest {shortest}, the longest {longest}, {half}"
-    even = f"all of {shortest}, as far as the steps of the simulated clock tell"
-    lost = sum(each.lost for each in watched.intervals)
+    count = len(periods_s)
+    times = {"shortest": time_text(periods_s[0]), "longest": time_text(periods_s[-1])}
+    half = time_text(statistics.median(periods_s))
+    asked = "The lab asks for {period}."
     sentences = [
-        f"{len(periods_s)} periods of {name}, {even if watched.within_steps else spread}.",
-        f"The lab asks for {_asked_words(watched.asked)}." if watched.asked else "",
-        f"{lost} messages were lost." if lost else "No message was lost.",
+        said("page.plot.even", EVEN, count=count, topic=name, period=times["shortest"])
+        if watched.within_steps
+        else said("page.plot.spread", SPREAD, count=count, topic=name, half=half, **times),
+        said("page.plot.asked", asked, period=_asked_words(watched.asked)) if watched.asked else "",
+        _lost_words(sum(each.lost for each in watched.intervals)),
     ]
     return " ".join(filter(None, sentences))
 
 
-def _asked_words(asked: Asked) -> str:
+def _lost_words(lost: int) -> str:
+    if not lost:
+        return said("page.plot.none_lost", "No message was lost.")
+    return said("page.plot.lost", "{count} messages were lost.", count=lost)
+
+
+def _asked_words(asked: RequiredRate) -> str:
     """The asked period and its limits."""
     unit = unit_for(1 / asked.hz)
     low, high = unit.number(1 / asked.high_hz), unit.number(1 / asked.low_hz)
-    return f"{unit.text(1 / asked.hz)} ({low} to {high} {unit.name})"
+    between = "{period} ({low} to {high} {unit})"
+    period = unit.text(1 / asked.hz)
+    return said("page.plot.between", between, period=period, low=low, high=high, unit=unit.name)
 
 
-def _top_s(intervals: Sequence[Interval], asked: Asked | None) -> float:
+def _top_s(intervals: Sequence[Interval], asked: RequiredRate | None) -> float:
     """The longest period on the paper. A rare long one does not press all else flat."""
     periods_s = sorted(each.period_s for each in intervals)
     usual_s = periods_s[int(USUAL * (len(periods_s) - 1))]
@@ -71,7 +91,7 @@ def _top_s(intervals: Sequence[Interval], asked: Asked | None) -> float:
 @dataclass(frozen=True)
 class _Plot:
     intervals: Sequence[Interval]
-    asked: Asked | None
+    asked: RequiredRate | None
     across_name: str
     width: float
     height: float
@@ -121,7 +141,9 @@ class _Plot:
             yield tag("line", x1=x, x2=x, y1=foot, y2=foot + 5, class_="axis")
             yield _text(f"{value:g}", x, foot + 18, "middle")
         yield self._level(foot, "axis")
-        yield _text(f"period ({self.unit.name})", 4, 13, "start")
+        yield _text(
+            said("page.plot.period", "period ({unit})", unit=self.unit.name), 4, 13, "start"
+        )
         yield _text(self.across_name, self.across.end, foot + 36, "end")
 
     def _losses(self) -> Iterator[Markup]:
@@ -182,17 +204,18 @@ def _arrow(x: float, y: float) -> str:
     return f"M{x:.1f} {y:.1f}l{-ARROW:g} {1.6 * ARROW:g}h{2 * ARROW:g}z"
 
 
-def legend(watched: Watched) -> Markup:
+def legend(watched: TopicIntervals) -> Markup:
     """What the marks mean: only those that are there."""
-    keys = [_key("dots", "one period: from a message to the next")]
+    keys = [_key("dots", said("page.key.dots", "one period: from a message to the next"))]
     if watched.asked:
-        keys.append(_key("band", f"asked: {_asked_words(watched.asked)}"))
+        asked = said("page.key.band", "asked: {period}", period=_asked_words(watched.asked))
+        keys.append(_key("band", asked))
     if any(each.lost for each in watched.intervals):
-        keys.append(_key("lost", "messages lost on the way, not slowness"))
+        keys.append(_key("lost", said("page.key.lost", "messages lost on the way, not slowness")))
     longest_s = max(each.period_s for each in watched.intervals)
     if longest_s > _top_s(watched.intervals, watched.asked):
-        words = f"longer than the paper is high: up to {time_text(longest_s)}"
-        keys.append(_key("beyond", words))
+        beyond = "longer than the paper is high: up to {time}"
+        keys.append(_key("beyond", said("page.key.beyond", beyond, time=time_text(longest_s))))
     return tag("ul", *keys, class_="legend")
 
 

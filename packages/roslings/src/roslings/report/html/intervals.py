@@ -8,8 +8,8 @@ from itertools import pairwise
 
 from ros2_on_pip.rates import NS_PER_S, Rate, measure_rate, period_bounds_s
 from roslings.evidence import Evidence, ExperimentSeen, MessageSeen, TopicSeen
-from roslings.matching import nearest_endpoint, own_endpoints
-from roslings.rates import in_the_watch, measure_simulated_rate
+from roslings.seen.matching import nearest_endpoint, own_endpoints
+from roslings.seen.rates import in_the_watch, measure_simulated_rate
 
 MOST_COMPARED = 1000
 """Each message is compared with each other one."""
@@ -17,7 +17,7 @@ ROUNDING_S = 1e-6
 
 
 @dataclass(frozen=True)
-class Asked:
+class RequiredRate:
     """The rate that a lab asks for on a topic, and the limits that still count."""
 
     topic: str
@@ -39,12 +39,12 @@ class Interval:
 
 
 @dataclass(frozen=True)
-class Watched:
+class TopicIntervals:
     """One topic in one experiment."""
 
     experiment: ExperimentSeen
     seen: TopicSeen
-    asked: Asked | None
+    asked: RequiredRate | None
     rate: Rate | None
     """None where there were too few messages to tell."""
     intervals: tuple[Interval, ...]
@@ -54,7 +54,7 @@ class Watched:
     """One period explains all times; what they differ by are the clock's steps."""
 
 
-def watched(evidence: Evidence, asked: Sequence[Asked]) -> list[Watched]:
+def watched(evidence: Evidence, asked: Sequence[RequiredRate]) -> list[TopicIntervals]:
     """Every topic that was heard, in each experiment; those with an asked rate first."""
     found = [
         _watched(experiment, topic, asked)
@@ -68,7 +68,9 @@ def _heard(experiment: ExperimentSeen) -> Iterator[TopicSeen]:
     return (topic for topic in experiment.topics.values() if topic.messages)
 
 
-def _watched(experiment: ExperimentSeen, topic: TopicSeen, asked: Sequence[Asked]) -> Watched:
+def _watched(
+    experiment: ExperimentSeen, topic: TopicSeen, asked: Sequence[RequiredRate]
+) -> TopicIntervals:
     meant = next((each for each in asked if _is_meant(experiment, topic, each)), None)
     if experiment.clock == "sim":
         return _simulated(experiment, topic, meant)
@@ -76,10 +78,12 @@ def _watched(experiment: ExperimentSeen, topic: TopicSeen, asked: Sequence[Asked
     rate = measure_rate(messages)
     stamped = rate is not None and rate.from_stamps
     intervals = intervals_of(messages, _source_ns if stamped else _arrival_ns)
-    return Watched(experiment, topic, meant, rate, tuple(intervals) if rate else ())
+    return TopicIntervals(experiment, topic, meant, rate, tuple(intervals) if rate else ())
 
 
-def _simulated(experiment: ExperimentSeen, topic: TopicSeen, asked: Asked | None) -> Watched:
+def _simulated(
+    experiment: ExperimentSeen, topic: TopicSeen, asked: RequiredRate | None
+) -> TopicIntervals:
     """A message is sent at a tick: a perfect timer of 0.435 s has periods of 0.4 and 0.5 s then.
 
     Where one period explains all times, that is what is shown; the rest is the clock's.
@@ -92,7 +96,7 @@ def _simulated(experiment: ExperimentSeen, topic: TopicSeen, asked: Asked | None
     if rate and period_s:
         intervals = tuple(_evenly(intervals, period_s))
         rate = replace(rate, periods_s=(period_s,) * len(rate.periods_s))
-    return Watched(experiment, topic, asked, rate, intervals, step_s, period_s is not None)
+    return TopicIntervals(experiment, topic, asked, rate, intervals, step_s, period_s is not None)
 
 
 def _evenly(intervals: Sequence[Interval], period_s: float) -> Iterator[Interval]:
@@ -132,7 +136,7 @@ def _arrival_ns(message: MessageSeen) -> int:
     return message.arrival_ns
 
 
-def _is_meant(experiment: ExperimentSeen, topic: TopicSeen, asked: Asked) -> bool:
+def _is_meant(experiment: ExperimentSeen, topic: TopicSeen, asked: RequiredRate) -> bool:
     """The topic is the one that was asked for, or the nearest to it that is there."""
     end = nearest_endpoint(experiment.graph, "publisher", asked.topic, asked.type)
     return end is not None and end.topic == topic.name

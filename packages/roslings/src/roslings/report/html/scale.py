@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ros2_on_pip.language import said
+
 MOST_DECIMALS = 4
 LEAST_S = 1e-6
 NICE = (1.0, 2.0, 5.0, 10.0)
@@ -60,7 +62,7 @@ def _digits(value: float) -> int:
 def time_text(seconds: float) -> str:
     """A time in the unit in which it is easy to read."""
     if seconds < LEAST_S:
-        return "less than 1 µs"
+        return said("page.least_time", "less than 1 µs")
     return unit_for(seconds).text(seconds)
 
 
@@ -68,8 +70,11 @@ def rate_text(hz: float, uncertainty_hz: float) -> str:
     """A rate to the second digit of what is not certain of it, at most four decimals."""
     least = max(uncertainty_hz, 10.0**-MOST_DECIMALS)
     decimals = min(MOST_DECIMALS, max(0, math.ceil(-math.log10(least)) + 1))
-    sure = "less than " if uncertainty_hz < least else ""
-    return f"{hz:.{decimals}f} Hz, give or take {sure}{max(least, uncertainty_hz):.{decimals}f} Hz"
+    rate, about = f"{hz:.{decimals}f}", f"{max(least, uncertainty_hz):.{decimals}f}"
+    if uncertainty_hz < least:
+        sure = "{rate} Hz, give or take less than {about} Hz"
+        return said("page.rate.sure", sure, rate=rate, about=about)
+    return said("page.rate.about", "{rate} Hz, give or take {about} Hz", rate=rate, about=about)
 
 
 SECONDS, MILLISECONDS, MICROSECONDS = Unit("s", 1.0), Unit("ms", 1e3), Unit("µs", 1e6)

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from ros2_on_pip.language import Text, said
 from ros2_on_pip.markup import Markup, joined, tag
 from roslings.report.html.scale import Axis, unit_for
 
@@ -31,7 +32,7 @@ class Bar:
 
 
 @dataclass(frozen=True)
-class Line:
+class TimelineRow:
     """One row: what it is about, its bars, and the moments at which something came."""
 
     label: str
@@ -39,7 +40,7 @@ class Line:
     dots_s: tuple[float, ...] = ()
 
 
-def timeline(lines: Sequence[Line], words: str) -> Markup:
+def timeline(lines: Sequence[TimelineRow], words: str) -> Markup:
     """The picture of at least one line, for wide and narrow screens.
 
     `words` say the same to who does not see it.
@@ -52,7 +53,7 @@ def timeline(lines: Sequence[Line], words: str) -> Markup:
     )
 
 
-def _last_s(lines: Sequence[Line]) -> float:
+def _last_s(lines: Sequence[TimelineRow]) -> float:
     bars = (bar.to_s for line in lines for bar in line.bars)
     return max((*bars, *(time_s for line in lines for time_s in line.dots_s)), default=0.0) or 1.0
 
@@ -64,7 +65,7 @@ class _Paper:
         self.width, self.label = width, label
         self.axis = Axis(last_s, label, width - MARGIN)
 
-    def picture(self, lines: Sequence[Line], words: str) -> Markup:
+    def picture(self, lines: Sequence[TimelineRow], words: str) -> Markup:
         bottom = ROW * len(lines) + 8.0
         rows = (self._row(line, ROW * row + ROW / 2) for row, line in enumerate(lines))
         return tag(
@@ -85,7 +86,7 @@ class _Paper:
             yield tag("text", unit.number(time_s), x=x, y=bottom + 15.0, text_anchor="middle")
         yield tag("text", unit.name, x=self.width - MARGIN, y=bottom + 30.0, text_anchor="end")
 
-    def _row(self, line: Line, y: float) -> Iterator[Markup]:
+    def _row(self, line: TimelineRow, y: float) -> Iterator[Markup]:
         label = cut(line.label, int(self.label / PER_LETTER_PX))
         yield tag("text", label, x=self.label - 10.0, y=y + 4.0, text_anchor="end")
         for bar in line.bars:
@@ -103,17 +104,17 @@ class _Paper:
             yield tag("line", x1=x, x2=x, y1=y, y2=y, class_="dots")
 
 
-def table(name: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> Markup:
+def table(name: str, head: Sequence[Text], rows: Sequence[Sequence[str]]) -> Markup:
     """A table whose cells break; where there is too little room for that, it scrolls by itself."""
-    top = tag("tr", *(tag("th", name, scope="col") for name in head))
+    top = tag("tr", *(tag("th", str(title), scope="col") for title in head))
     body = [tag("tr", *(tag("td", cell) for cell in row)) for row in rows]
     whole = tag("table", tag("thead", top), tag("tbody", *body), class_="exchange")
     return tag("div", whole, class_="scroll", tabindex="0", role="group", aria_label=name)
 
 
-def counted(number: int, thing: str) -> str:
-    """`1 call`, `2 calls`."""
-    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+def in_experiment(name: str) -> str:
+    """The title of what an experiment saw."""
+    return said("page.in", "in {experiment}", experiment=name)
 
 
 def fields_text(value: Any) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from graders.almanac import faults
+from graders.almanac.contract import GaleWords
 from graders.almanac.record import WindSeen
 
 from roslings.course import NodeContract
@@ -14,7 +15,8 @@ from roslings.judge.views import Demand
 
 def warn_of_gales(node: NodeContract) -> Demand[ExperimentView]:
     """The card's line for each gale, and for no breeze."""
-    template, above_m_s = written(node.log, node.node), written(node.warns_above_m_s, node.node)
+    template = written(node.log, node.node)
+    above_m_s = written(node.of(GaleWords).warns_above_m_s, node.node)
 
     def demand(experiment: ExperimentView) -> None:
         texts = experiment.process(node).texts

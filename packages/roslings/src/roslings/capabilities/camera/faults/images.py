@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.sentences import one_of, plural
 
 OPEN_THE_PAGE = "Check again with `--html page.html` behind the command, and open page.html:"
 """The page shows the pictures that a verdict is about."""
@@ -22,15 +23,16 @@ class WrongStep(Fault):
     mend = "step is the bytes of one row: width x channels. bgr8 has 3 channels, each one byte."
     expected = "on {topic}, step is {wanted}"
 
+    measured = one_of(
+        width="step is {found}: the width, without the channels",
+        empty="step is {found}: nobody filled it",
+        other="step is {found}",
+    )
+
     @property
-    def measured(self) -> str:
-        """What is there."""
-        return f"step is {self.found}{_guess_of_step(self.found, self.wanted)}"
-
-
-def _guess_of_step(found: int, wanted: int) -> str:
-    guesses = {wanted // 3: ": the width, without the channels", 0: ": nobody filled it"}
-    return guesses.get(found, "")
+    def which_measured(self) -> str:
+        """What it probably is."""
+        return {self.wanted // 3: "width", 0: "empty"}.get(self.found, "other")
 
 
 @dataclass(eq=False)
@@ -43,8 +45,12 @@ class NotAllBytes(Fault):
     why = "Who reads the picture believes its header, and reads beyond the end of the bytes."
     hint = "How many bytes do you publish, and how many does such a picture have?"
     mend = "data holds step x height bytes: all rows of the picture, one behind the other."
-    expected = "on {topic}, data has step x height = {wanted} bytes"
-    measured = "it has {found} bytes"
+    expected = plural(
+        "wanted",
+        one="on {topic}, data has step x height = {wanted} byte",
+        other="on {topic}, data has step x height = {wanted} bytes",
+    )
+    measured = plural("found", one="it has {found} byte", other="it has {found} bytes")
 
 
 @dataclass(eq=False)
@@ -58,12 +64,15 @@ class WrongPicture(Fault):
     mend = "Publish what camera.read() gave: all rows, all columns, in their order."
     expected = "on {topic}, the pictures of the camera"
 
+    measured = one_of(
+        no_picture="bytes that are no picture of this size",
+        another="another picture: its values are off by {off:.0f} of 255 on average",
+    )
+
     @property
-    def measured(self) -> str:
-        """How far off it is."""
-        if self.off is None:
-            return "bytes that are no picture of this size"
-        return f"another picture: its values are off by {self.off:.0f} of 255 on average"
+    def which_measured(self) -> str:
+        """Whether it is a picture at all."""
+        return "no_picture" if self.off is None else "another"
 
 
 @dataclass(eq=False)
@@ -119,10 +128,12 @@ class ParameterNotSet(Fault):
     mend = "Call self.declare_parameter(NAME, DEFAULT) in __init__, with the name of the card."
     expected = "`ros2 param set {node} {name} {value}` works"
 
+    measured = one_of(refused="the node refuses: {reason}", unanswered="the node does not answer")
+
     @property
-    def measured(self) -> str:
-        """What the node said."""
-        return f"the node refuses: {self.reason}" if self.reason else "the node does not answer"
+    def which_measured(self) -> str:
+        """Whether the node said anything."""
+        return "refused" if self.reason else "unanswered"
 
 
 @dataclass(eq=False)
@@ -132,7 +143,9 @@ class ParameterAccepted(Fault):
     node: str
     name: str
     value: str
-    span: str
+    type: str
+    least: float
+    most: float
     why = "A wrong value must not stop a robot that runs. Refuse it where it comes in."
     hint = (
         "Who refuses a value that is out of the card's limits? Look at what declare_parameter gets."
@@ -141,7 +154,7 @@ class ParameterAccepted(Fault):
         "Give limits to declare_parameter: ParameterDescriptor(integer_range=[IntegerRange("
         "from_value=..., to_value=..., step=1)]). The type is that of the default."
     )
-    expected = "{node} refuses {name} = {value} ({span})"
+    expected = "{node} refuses {name} = {value} ({type}, {least:g} to {most:g})"
     measured = "the value was taken"
 
 
@@ -169,22 +182,38 @@ class WrongBrightness(Fault):
         " picture. cv2.add stops at 0 and at 255."
     )
 
-    @property
-    def expected(self) -> str:
-        """How much lighter."""
-        return (
-            f"when {self.name} goes from {self.before} to {self.after}, each value of the picture"
-            f" becomes {_change(self.wanted)}, {'up to 255' if self.wanted > 0 else 'down to 0'}"
-        )
+    expected = one_of(
+        higher="when {name} goes from {before} to {after}, each value of the picture becomes"
+        " {wanted_levels:.0f} higher, up to 255",
+        same="when {name} goes from {before} to {after}, each value of the picture becomes"
+        " {wanted_levels:.0f} higher, down to 0",
+        lower="when {name} goes from {before} to {after}, each value of the picture becomes"
+        " {wanted_levels:.0f} lower, down to 0",
+    )
+    measured = one_of(
+        higher="on average, the values became {found_levels:.0f} higher",
+        lower="on average, the values became {found_levels:.0f} lower",
+    )
 
     @property
-    def measured(self) -> str:
-        """How much lighter they became."""
-        return f"on average, the values became {_change(self.found)}"
+    def which_expected(self) -> str:
+        """Lighter or darker."""
+        return "same" if self.wanted == 0 else "higher" if self.wanted > 0 else "lower"
 
+    @property
+    def which_measured(self) -> str:
+        """Lighter or darker."""
+        return "higher" if self.found >= 0 else "lower"
 
-def _change(levels: float) -> str:
-    return f"{abs(levels):.0f} {'higher' if levels >= 0 else 'lower'}"
+    @property
+    def wanted_levels(self) -> float:
+        """By how much they should change."""
+        return abs(self.wanted)
+
+    @property
+    def found_levels(self) -> float:
+        """By how much they changed."""
+        return abs(self.found)
 
 
 @dataclass(eq=False)
@@ -198,18 +227,21 @@ class LightAtStartIgnored(WrongBrightness):
         " a change sets does not know the value of the start."
     )
 
-    @property
-    def expected(self) -> str:
-        """The light from the first picture on."""
-        return (
-            f"started with `-p {self.name}:={self.after}`, each value of each picture is"
-            f" {_change(self.wanted)} than the camera's"
-        )
+    expected = one_of(
+        higher="started with `-p {name}:={after}`, each value of each picture is"
+        " {wanted_levels:.0f} higher than the camera's",
+        lower="started with `-p {name}:={after}`, each value of each picture is"
+        " {wanted_levels:.0f} lower than the camera's",
+    )
+    measured = one_of(
+        higher="there were pictures that are {found_levels:.0f} higher",
+        lower="there were pictures that are {found_levels:.0f} lower",
+    )
 
     @property
-    def measured(self) -> str:
-        """The light that it had."""
-        return f"there were pictures that are {_change(self.found)}"
+    def which_expected(self) -> str:
+        """Lighter or darker."""
+        return "higher" if self.wanted >= 0 else "lower"
 
 
 @dataclass(eq=False)
@@ -252,10 +284,12 @@ class SilentAboutCamera(Fault):
     )
     expected = "{when}: a line {line!r} with the device and {reason!r} in it"
 
+    measured = one_of(another="it wrote {similar!r}", none="it wrote no such line")
+
     @property
-    def measured(self) -> str:
-        """What it wrote."""
-        return f"it wrote {self.similar!r}" if self.similar else "it wrote no such line"
+    def which_measured(self) -> str:
+        """Whether any line is like it."""
+        return "another" if self.similar else "none"
 
 
 @dataclass(eq=False)

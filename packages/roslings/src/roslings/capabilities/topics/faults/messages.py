@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.sentences import plural
 
 
 @dataclass(eq=False)
@@ -17,7 +18,11 @@ class NoMessages(Fault):
     why = "A publisher sends nothing by itself: something must call publish() again and again."
     hint = "Is there a timer (create_timer) whose function calls publish()?"
     expected = "messages on {topic} all the time"
-    measured = "{count} message(s) in {seconds:.1f} s"
+    measured = plural(
+        "count",
+        one="{count} message in {seconds:.1f} s",
+        other="{count} messages in {seconds:.1f} s",
+    )
 
 
 @dataclass(eq=False)
@@ -44,10 +49,12 @@ class WrongCount(Fault):
     hint = "When does your counter change, and how often for one message?"
     mend = "Add 1 to your counter once for each message, right after publish()."
 
+    expected = "{next} after {before}"
+
     @property
-    def expected(self) -> str:
-        """The next number."""
-        return f"{self.before + 1} after {self.before}"
+    def next(self) -> int:
+        """The number that was to come."""
+        return self.before + 1
 
 
 @dataclass(eq=False)

@@ -5,6 +5,26 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from roslings.judge.faults.base import Fault
+from roslings.judge.faults.sentences import SentencePart, Text, one_of, plural
+from roslings.judge.values import Looks
+
+
+@dataclass(frozen=True)
+class Heard(SentencePart):
+    """What a node was told on a topic: the last value, and the one before where that counts."""
+
+    field: str
+    values: tuple[str, ...]
+    topic: str
+    text = one_of(
+        one="{field} {values[0]} on {topic}",
+        two="{field} {values[0]}, then {values[1]} on {topic}",
+    )
+
+    @property
+    def which_text(self) -> str:
+        """How many values."""
+        return "one" if len(self.values) == 1 else "two"
 
 
 @dataclass(eq=False)
@@ -13,20 +33,27 @@ class WrongField(Fault):
 
     topic: str
     name: str
-    wanted: str
-    found: str
+    wanted: Text
+    found: Text
+    looks: Looks | None = None
     why = "Who reads these messages takes each field at its word."
     expected = "on {topic}, the field {name} is {wanted}"
-    measured = "it is {found}"
+    measured = one_of(plain="it is {found}", looks="it is {found}, {looks}")
+    headline = one_of(plain="{name} is {found}", looks="{name} is {found}, {looks}")
     hint = "Which line fills {name}, before you publish?"
     mend = (
         "Fill it before you publish: MESSAGE.{name} = ... A field that nobody fills is 0 or empty."
     )
 
     @property
-    def headline(self) -> str:
-        """With the field's name."""
-        return f"{self.name} is {self.found}"
+    def which_measured(self) -> str:
+        """Whether the value looks like something."""
+        return "looks" if self.looks else "plain"
+
+    @property
+    def which_headline(self) -> str:
+        """The same."""
+        return self.which_measured
 
 
 @dataclass(eq=False)
@@ -52,10 +79,12 @@ class OldStamp(NoStamp):
         " self.get_clock().now().to_msg()"
     )
 
+    measured = "header.stamp is {away_s:.1f} s away from the time of sending"
+
     @property
-    def measured(self) -> str:  # type: ignore[override]
-        """How far it is off."""
-        return f"header.stamp is {abs(self.behind_s):.1f} s away from the time of sending"
+    def away_s(self) -> float:
+        """How far it is off, before or behind."""
+        return abs(self.behind_s)
 
 
 @dataclass(eq=False)
@@ -64,10 +93,10 @@ class WrongReaction(Fault):
 
     topic: str
     field_name: str
-    heard: str
+    heard: Text
     wanted: str
     found: str | None
-    remark: str = ""
+    looks: Looks | None = None
     why = "A robot acts on this value. A wrong one sends it against the wall."
     hint = (
         "Take this one case, with its numbers, and go through your code with it by hand, line by"
@@ -75,23 +104,26 @@ class WrongReaction(Fault):
     )
     expected = "after {heard}: {field_name} {wanted} on {topic}"
 
+    measured = one_of(
+        nothing="no message",
+        plain="{field_name} {found}",
+        looks="{field_name} {found}, {looks}",
+    )
+    headline = one_of(
+        nothing="after {heard}: no message on {topic}",
+        plain="after {heard}: {field_name} {found} on {topic}",
+        looks="after {heard}: {field_name} {found} on {topic}, {looks}",
+    )
+
     @property
-    def measured(self) -> str:
+    def which_measured(self) -> str:
         """The value that came, and what it looks like."""
-        return f"{self._came}{self.remark}"
+        return "nothing" if self.found is None else "looks" if self.looks else "plain"
 
     @property
-    def headline(self) -> str:
-        """With the case, and the topic."""
-        return f"{self._case}: {self._came} on {self.topic}{self.remark}"
-
-    @property
-    def _came(self) -> str:
-        return "no message" if self.found is None else f"{self.field_name} {self.found}"
-
-    @property
-    def _case(self) -> str:
-        return f"after {self.heard}"
+    def which_headline(self) -> str:
+        """The same."""
+        return self.which_measured
 
 
 @dataclass(eq=False)
@@ -129,10 +161,7 @@ class EndedWhileHearing(WrongReaction):
     )
     measured = "the node ended with an error"
 
-    @property
-    def headline(self) -> str:
-        """With the case."""
-        return f"{self._case}: {self.measured}"
+    headline = "after {heard}: the node ended with an error"
 
 
 @dataclass(eq=False)
@@ -143,9 +172,11 @@ class WrongAtFirst(WrongReaction):
     hint = "What do you put into your variable in __init__? It is published until a value comes."
     expected = "before anything was heard: {field_name} {wanted} on {topic}"
 
-    @property
-    def _case(self) -> str:
-        return "before anything was heard"
+    headline = one_of(
+        nothing="before anything was heard: no message on {topic}",
+        plain="before anything was heard: {field_name} {found} on {topic}",
+        looks="before anything was heard: {field_name} {found} on {topic}, {looks}",
+    )
 
 
 @dataclass(eq=False)
@@ -158,5 +189,9 @@ class MoreThanAsked(Fault):
     why = "Who hears a message takes it for news: twice the same message is a wrong one."
     hint = "From how many places in your code is publish() called?"
     mend = "Call publish() once, in the function that hears a message, and in no timer."
-    expected = "one message on {topic} for each that is heard ({told} were told)"
-    measured = "{came} messages came"
+    expected = plural(
+        "told",
+        one="one message on {topic} for each that is heard ({told} was told)",
+        other="one message on {topic} for each that is heard ({told} were told)",
+    )
+    measured = plural("came", one="{came} message came", other="{came} messages came")

@@ -45,21 +45,21 @@ class WrongRate(Fault):
 
     hint = "Look at the number that you give create_timer(...). In which unit is it?"
 
-    @property
-    def measured(self) -> str:
-        """The rate, how sure it is, and the period."""
-        return (
-            f"{self.rate.hz:.2f} Hz (±{max(self.rate.uncertainty_hz, 0.01):.2f}),"
-            f" one message every {self.rate.period_s:.2f} s"
-        )
+    measured = "{rate.hz:.2f} Hz (±{sure_to_hz:.2f}), one message every {rate.period_s:.2f} s"
+    mend = (
+        "{wanted_hz:g} Hz means one message every {wanted_s:g} s."
+        " Look at the period that you give create_timer(...)."
+    )
 
     @property
-    def mend(self) -> str:
+    def sure_to_hz(self) -> float:
+        """How sure the rate is."""
+        return max(self.rate.uncertainty_hz, 0.01)
+
+    @property
+    def wanted_s(self) -> float:
         """The period to aim at."""
-        return (
-            f"{self.wanted_hz:g} Hz means one message every {1 / self.wanted_hz:g} s."
-            " Look at the period that you give create_timer(...)."
-        )
+        return 1 / self.wanted_hz
 
 
 @dataclass(eq=False)
@@ -80,16 +80,18 @@ class Bursts(WrongRate):
     hint = "How often does one call of the timer's function publish?"
     mend = "Publish one message in each call of the timer's function, not several in a loop."
 
-    @property
-    def expected(self) -> str:  # type: ignore[override]
-        """Even spacing."""
-        return f"one message every {1 / self.wanted_hz:g} s on {self.topic}, evenly"
+    expected = "one message every {wanted_s:g} s on {topic}, evenly"
+    measured = "groups: pauses from {shortest_s:.3f} s to {longest_s:.2f} s between two messages"
 
     @property
-    def measured(self) -> str:
-        """The shape of the intervals."""
-        shortest, longest = min(self.rate.periods_s), max(self.rate.periods_s)
-        return f"groups: pauses from {shortest:.3f} s to {longest:.2f} s between two messages"
+    def shortest_s(self) -> float:
+        """The shortest interval."""
+        return min(self.rate.periods_s)
+
+    @property
+    def longest_s(self) -> float:
+        """The longest interval."""
+        return max(self.rate.periods_s)
 
 
 @dataclass(eq=False)
@@ -116,27 +118,17 @@ class SentAgain(TooFast):
 class SleepsAfterWorking(TooSlow):
     """Steady, and longer than asked: the work comes on top of the waiting."""
 
-    @property
-    def measured(self) -> str:
-        """The period, and how much of it may be work."""
-        work_s = self.rate.median_s - 1 / self.wanted_hz
-        return (
-            f"{self.rate.hz:.2f} Hz: one message every {self.rate.median_s:.2f} s, evenly,"
-            f" each about {work_s:.2f} s late"
-        )
+    measured = (
+        "{rate.hz:.2f} Hz: one message every {rate.median_s:.2f} s, evenly,"
+        " each about {work_s:.2f} s late"
+    )
+    hint = "Do you work for {work_s:.2f} s and then sleep for {wanted_s:g} s? The two add up."
+    mend = "Use create_timer({wanted_s:g}, ...), and let its function return at once."
 
     @property
-    def hint(self) -> str:  # type: ignore[override]
-        """Two times that add up."""
-        wanted_s = 1 / self.wanted_hz
-        work_s = self.rate.median_s - wanted_s
-        return f"Do you work for {work_s:.2f} s and then sleep for {wanted_s:g} s? The two add up."
-
-    @property
-    def mend(self) -> str:
-        """Wait on a timer, work quickly."""
-        wanted_s = 1 / self.wanted_hz
-        return f"Use create_timer({wanted_s:g}, ...), and let its function return at once."
+    def work_s(self) -> float:
+        """How much of the period may be work."""
+        return self.rate.median_s - self.wanted_s
 
 
 @dataclass(eq=False)
@@ -145,13 +137,14 @@ class StallsNowAndThen(TooSlow):
 
     hint = "What does your node do only now and then, and takes long? Look for loops and sleep."
 
+    measured = (
+        "usually one message every {rate.median_s:.2f} s, but pauses of up to {longest_s:.2f} s"
+    )
+
     @property
-    def measured(self) -> str:
-        """The usual period, and the longest one."""
-        return (
-            f"usually one message every {self.rate.median_s:.2f} s, but pauses of up to"
-            f" {max(self.rate.periods_s):.2f} s"
-        )
+    def longest_s(self) -> float:
+        """The longest interval."""
+        return max(self.rate.periods_s)
 
 
 @dataclass(eq=False)
@@ -164,13 +157,10 @@ class StartsLate(TooSlow):
         " first publish() and the timer?"
     )
 
-    @property
-    def measured(self) -> str:
-        """The first pause."""
-        return (
-            f"{self.rate.periods_s[0]:.2f} s from the first message to the second, then one"
-            f" every {self.rate.median_s:.2f} s"
-        )
+    measured = (
+        "{rate.periods_s[0]:.2f} s from the first message to the second, then one"
+        " every {rate.median_s:.2f} s"
+    )
 
 
 @dataclass(eq=False)
@@ -183,11 +173,17 @@ class Drifts(WrongRate):
         " create_timer(...) called more than once?"
     )
 
+    measured = "one message every {first_s:.2f} s at first, every {last_s:.2f} s at the end"
+
     @property
-    def measured(self) -> str:
-        """The period at the beginning and at the end."""
-        first_s, last_s = thirds(self.rate)
-        return f"one message every {first_s:.2f} s at first, every {last_s:.2f} s at the end"
+    def first_s(self) -> float:
+        """The period at the beginning."""
+        return thirds(self.rate)[0]
+
+    @property
+    def last_s(self) -> float:
+        """The period at the end."""
+        return thirds(self.rate)[1]
 
 
 def rate_fault(rate: Rate, low_hz: float, high_hz: float) -> type[WrongRate] | None:

@@ -1,0 +1,166 @@
+"""Demands on drives through rooms. What was driven in real time is judged with bands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ros2_on_pip.rates import LONGEST_STALL_S
+from roslings.capabilities.rooms import faults
+from roslings.capabilities.rooms.contract import StopBeforeContract, WallContract
+from roslings.capabilities.rooms.reasons import HeldUpInARoom, InRealTime, NothingDriven
+from roslings.capabilities.rooms.record import RoomDriveSeen, RoomsSeen
+from roslings.capabilities.rooms.seen import (
+    Encounter,
+    WallDistance,
+    covered_m,
+    encounters,
+    said_anything,
+    wall_distance,
+    way_m,
+)
+from roslings.judge.demands import require_believable
+from roslings.judge.faults import Fault
+from roslings.judge.remarks import remark
+from roslings.judge.views import Demand, ExperimentView
+
+BAND = 0.25
+"""In real time a limit is wider by this part of it: two such drives are never equal."""
+COMES_WITHIN = 0.5
+"""It has come to its wall where it is first off by no more than this part of the distance."""
+
+
+def drive_each(experiment: ExperimentView) -> None:
+    """The nodes drive in each room, to its end. It tells by which clock they were judged."""
+    for drive in _drives(experiment):
+        _say_the_clock(drive)
+        if drive.ended:
+            log = experiment.labelled(drive.ended).last_lines()
+            after_s = len(drive.ticks) * drive.period_s
+            raise faults.EndsInARoom(drive.seed, after_s, log=log)
+        if not said_anything(drive):
+            raise _told(drive, faults.NeverDrives(drive.seed, drive.refused_commands))
+
+
+def touch_at_most(bumps: int) -> Demand[ExperimentView]:
+    """So many bumps in a room, and no more: a touch is one by either clock."""
+
+    def demand(experiment: ExperimentView) -> None:
+        for drive in _drives(experiment):
+            if len(drive.bumps) > bumps:
+                first = drive.bumps[0]
+                fault = faults.BumpsIntoThings(
+                    drive.seed,
+                    bumps,
+                    len(drive.bumps),
+                    first.time_s,
+                    first.x_m,
+                    first.y_m,
+                    "moving" if first.moving else "standing",
+                )
+                raise _told(drive, fault)
+
+    return demand
+
+
+def cover(least_m: float) -> Demand[ExperimentView]:
+    """It goes so far over new ground in each room."""
+
+    def demand(experiment: ExperimentView) -> None:
+        for drive in _drives(experiment):
+            if covered_m(drive) < least_m / _wider(drive):
+                fault = faults.CoversLittle(drive.seed, least_m, covered_m(drive), way_m(drive))
+                raise _told(drive, fault)
+
+    return demand
+
+
+def follow_its_wall(wall: WallContract) -> Demand[ExperimentView]:
+    """It keeps its distance from the wall on the side that its parameter said."""
+
+    def demand(experiment: ExperimentView) -> None:
+        for drive in _drives(experiment):
+            _judge_wall(drive, wall)
+
+    return demand
+
+
+def _judge_wall(drive: RoomDriveSeen, wall: WallContract) -> None:
+    side, within_m = drive.side or "left", COMES_WITHIN * wall.at_m
+    found = wall_distance(drive, side, wall.at_m, within_m)
+    if found is None:
+        beside_m = [tick.left_m if side == "left" else tick.right_m for tick in drive.ticks]
+        nearest_m = min(beside_m, key=lambda each_m: abs(each_m - wall.at_m))
+        fault = faults.NoWallFound(drive.seed, side, wall.at_m, within_m, nearest_m)
+        raise _told(drive, fault)
+    if off := _off_the_wall(drive, wall, found):
+        raise _told(drive, off)
+
+
+def _off_the_wall(
+    drive: RoomDriveSeen, wall: WallContract, found: WallDistance
+) -> faults.OffTheWall | None:
+    side, wider = drive.side or "left", _wider(drive)
+    if found.mean_off_m > wall.mean_off_m * wider:
+        return faults.OffTheWall(
+            drive.seed, side, wall.at_m, "mean", wall.mean_off_m, found.mean_off_m, found.mean_m
+        )
+    if found.p95_off_m > wall.p95_off_m * wider:
+        return faults.OffTheWall(
+            drive.seed, side, wall.at_m, "p95", wall.p95_off_m, found.p95_off_m, found.mean_m
+        )
+    return None
+
+
+def stop_before_what_moves(stops: StopBeforeContract) -> Demand[ExperimentView]:
+    """Whenever something that moves comes into its way, it stands in time."""
+
+    def demand(experiment: ExperimentView) -> None:
+        met = False
+        for drive in _drives(experiment):
+            for each in encounters(drive):
+                met = True
+                if fault := _drives_on(drive, each, stops.from_m):
+                    raise _told(drive, fault)
+        if not met:
+            raise NothingDriven("no_encounter")
+
+    return demand
+
+
+def _drives_on(drive: RoomDriveSeen, met: Encounter, from_m: float) -> faults.DrivesOn | None:
+    least_m = from_m / _wider(drive)
+    if met.bumped:
+        return faults.DrivesOn(drive.seed, from_m, met.from_s, "bumped", met.nearest_m)
+    if met.stood_m is None and met.nearest_m < least_m:
+        return faults.DrivesOn(drive.seed, from_m, met.from_s, "on", met.nearest_m)
+    if met.stood_m is not None and met.stood_m < least_m:
+        return faults.DrivesOn(drive.seed, from_m, met.from_s, "late", met.stood_m)
+    return None
+
+
+def _drives(experiment: ExperimentView) -> Iterator[RoomDriveSeen]:
+    """Raises NothingToJudge where no room was driven, Inconclusive where nothing is believed."""
+    require_believable(experiment.seen)
+    drives = experiment.seen.part(RoomsSeen).drives
+    if not drives:
+        raise NothingDriven("no_drive")
+    yield from drives
+
+
+def _wider(drive: RoomDriveSeen) -> float:
+    return 1 + BAND if drive.clock == "wall" else 1.0
+
+
+def _told(drive: RoomDriveSeen, fault: Fault) -> Exception:
+    """The fault; in real time not where this computer may have made it."""
+    held_s = max(drive.stall_s, drive.held_s)
+    if drive.clock == "wall" and held_s > LONGEST_STALL_S:
+        return HeldUpInARoom(drive.seed, held_s)
+    return fault
+
+
+def _say_the_clock(drive: RoomDriveSeen) -> None:
+    """What was judged in real time is told, whatever comes of it."""
+    if drive.why_wall:
+        thread = drive.sleepers[0].thread if drive.sleepers else ""
+        remark(InRealTime(drive.why_wall, thread))
