@@ -25,6 +25,16 @@ LAB = lab("actions")
 WITHIN_S = 60.0
 """Only a test that fails waits so long."""
 
+TRIES = 20
+"""Of ends on a quiet computer, up to every second is broken by rclpy."""
+
+OF_RCLPY = (
+    "Unable to convert call argument",  # Ctrl-C came while a message was unpacked
+    "rcl_shutdown already called",
+    "context is invalid",
+    "context is not valid",
+)
+
 FAR = {"x": 7.0, "y": 6.0, "tolerance": 0.1}
 TICK_S = 0.05
 
@@ -119,6 +129,14 @@ def server(domain: int, *words: str) -> Iterator[subprocess.Popen[str]]:
 def test_ctrl_c_ends_a_goal_under_way(clock: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """With exit code 0, and no error of its own: rclpy may write one where Ctrl-C meets it."""
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    ends = (interrupted(clock) for _ in range(TRIES))
+    code, said = next(each for each in ends if not is_broken_by_rclpy(*each))
+    assert code == 0, said
+    assert "drive_server.py" not in said, said
+
+
+def interrupted(clock: str) -> tuple[int, str]:
+    """The exit code of a server with a goal under way, and what it wrote until its end."""
     words = [] if clock == "of the wall" else ["-p", "use_sim_time:=true"]
     with (
         leased_domain() as domain,
@@ -130,5 +148,9 @@ def test_ctrl_c_ends_a_goal_under_way(clock: str, monkeypatch: pytest.MonkeyPatc
             other.until(lambda: len(other.feedback) > 2)
         process.send_signal(signal.SIGINT)
         said, _ = process.communicate(timeout=WITHIN_S)
-        assert process.returncode == 0, said
-        assert "drive_server.py" not in said, said
+        return process.returncode, said
+
+
+def is_broken_by_rclpy(code: int, said: str) -> bool:
+    """Ctrl-C met rclpy itself: such an end tells nothing of the loop (`roslings.seen.exits`)."""
+    return code != 0 and any(words in said for words in OF_RCLPY)
