@@ -9,11 +9,13 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import pytest
 from geometry_msgs.msg import Twist, Vector3
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import Range
 from std_msgs.msg import Bool, Int32, String
 from std_srvs.srv import SetBool
@@ -36,11 +38,11 @@ EVERY_LAB = [pytest.param(each, id=each.name) for each in [*all_labs(), EXAMPLE]
 
 
 def fault(
-    operator: str, field: str = "", *, kind: str = "sent", other: str = ""
+    operator: str, place: str = "", *, kind: str = "sent", other: str = ""
 ) -> layer.InjectedFault:
     """One in /cmd_vel."""
     return layer.InjectedFault(
-        {"kind": kind, "operator": operator, "at": "/cmd_vel", "field": field, "other": other}
+        {"kind": kind, "operator": operator, "at": "/cmd_vel", "field": place, "other": other}
     )
 
 
@@ -161,6 +163,7 @@ PASSING: list[tuple[str, list[int], list[int]]] = [
     ("stops_after", [*range(20)], [*range(layer.STOPS_AFTER)]),
     ("once", [1, 2, 3], [1]),
     ("twice", [1, 2], [1, 1, 2, 2]),
+    ("extra_at_start", [1, 2], [0, 1, 2]),
 ]
 
 
@@ -169,6 +172,41 @@ def test_messages_pass_or_do_not(operator: str, sent: list[int], seen: list[int]
     """Whole messages are lost, or come once more."""
     out = through(operator, *(Int32(data=number) for number in sent))
     assert [each.data for each in out] == seen
+
+
+@dataclass
+class HeardFrom:
+    """A publisher whose first subscription comes after some messages."""
+
+    durability: DurabilityPolicy
+    silent: int
+    sent: list[int] = field(default_factory=list)
+
+    @property
+    def qos_profile(self) -> QoSProfile:
+        """As rclpy's publisher shows it."""
+        return QoSProfile(depth=1, durability=self.durability)
+
+    def get_subscription_count(self) -> int:
+        """None at first."""
+        return int(len(self.sent) >= self.silent)
+
+    def publish(self, message: Int32) -> None:
+        """Keep what comes."""
+        self.sent.append(message.data)
+
+
+@pytest.mark.parametrize(
+    ("durability", "sent"),
+    [(DurabilityPolicy.VOLATILE, [1, 2, 3, 5]), (DurabilityPolicy.TRANSIENT_LOCAL, [1, 3, 4, 5])],
+)
+def test_what_nobody_hears_is_no_fault(durability: DurabilityPolicy, sent: list[int]) -> None:
+    """The second message that is heard is lost; a topic that keeps its last is heard at once."""
+    publisher = HeardFrom(durability, silent=2)
+    send = layer.sending(fault("drop_second"), publisher)
+    for number in range(1, 6):
+        send(Int32(data=number))
+    assert publisher.sent == sent
 
 
 def test_nan_is_lost() -> None:

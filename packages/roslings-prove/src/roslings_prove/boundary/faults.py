@@ -12,7 +12,7 @@ from pathlib import Path
 from roslings.capabilities.actions.contract import ActionWords
 from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.services.contract import ServiceWords
-from roslings.course import Lab, NodeContract
+from roslings.course import Lab, NodeContract, TopicContract
 from roslings_prove.boundary import layer
 from roslings_prove.boundary.fields import MessageField, fields_of
 from roslings_prove.boundary.operators import AIMED, WORDS, of_field, of_flow
@@ -89,14 +89,15 @@ def neutral(lab: Lab) -> BoundaryFault:
 def faults(lab: Lab) -> list[BoundaryFault]:
     """All of a lab. Raises UnknownInterface where a type of its card is nowhere defined."""
     found = [fault for node in lab.card.nodes for fault in _of_node(lab, node)]
-    return [*found, *_of_bags(lab)]
+    return [*found, *_of_the_graph(lab), *_of_bags(lab)]
 
 
 def _of_node(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:
     program = node.executable
     for kind, topics in (("sent", node.publishes), ("heard", node.subscribes)):
         for topic in topics:
-            yield from _of_values(lab, program, kind, topic.topic, fields_of(lab, topic.type))
+            found = _of_values(lab, program, kind, topic.topic, fields_of(lab, topic.type))
+            yield from (each for each in found if not _nobody_can_tell(each, topic))
             if "qos" in topic.model_fields_set:
                 for operator in sorted({"reliability", "durability"} & topic.qos.model_fields_set):
                     yield BoundaryFault(lab, program, f"{kind} qos", operator, topic.topic)
@@ -144,9 +145,25 @@ def _of_parameters(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:
             yield BoundaryFault(lab, node.executable, "parameter", operator, parameter.name)
 
 
+def _nobody_can_tell(fault: BoundaryFault, topic: TopicContract) -> bool:
+    """Of messages that come again and again, nobody knows which one is the first.
+
+    Only a topic that keeps its last message for those who come later is to have it from the start.
+    """
+    latched = topic.qos.durability == "transient_local"
+    return (
+        fault.kind == "sent" and fault.operator == "drop_first" and bool(topic.rate) and not latched
+    )
+
+
+def _of_the_graph(lab: Lab) -> Iterator[BoundaryFault]:
+    """Of one program: whether such ends are free, the card says of all its nodes at once."""
+    for node in lab.card.nodes[:1]:
+        yield BoundaryFault(lab, node.executable, "node", "extra_publisher")
+        yield BoundaryFault(lab, node.executable, "node", "extra_subscription")
+
+
 def _of_life(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:
-    yield BoundaryFault(lab, node.executable, "node", "extra_publisher")
-    yield BoundaryFault(lab, node.executable, "node", "extra_subscription")
     yield BoundaryFault(lab, node.executable, "node", "ends_late")
     yield BoundaryFault(lab, node.executable, "node", "exit_code")
     yield BoundaryFault(lab, node.executable, "events", "ends_after")

@@ -191,6 +191,9 @@ class Stream:
         if self._fault.operator == "twice":
             self._fault.acts()
             return passing * 2
+        if self._fault.operator == "extra_at_start" and self._count == 1:
+            self._fault.acts()
+            return [type(message)(), *passing]
         return passing
 
     def _is_dropped(self, message: Any, before: Any) -> bool:
@@ -239,11 +242,14 @@ def hearing(fault: InjectedFault, callback: Callable[..., Any]) -> Callable[...,
     return awaited if is_coroutine(callback) else heard
 
 
-def sending(fault: InjectedFault, send: Callable[[Any], Any]) -> Callable[[Any], None]:
-    """`publish`, behind a stream."""
-    stream = Stream(fault)
+def sending(fault: InjectedFault, publisher: Any) -> Callable[[Any], None]:
+    """`publish`, behind a stream. What nobody hears, now or later, passes it by, uncounted."""
+    stream, send = Stream(fault), publisher.publish
 
     def sent(message: Any) -> None:
+        if not is_kept(publisher) and not publisher.get_subscription_count():
+            send(message)
+            return
         for each in passing(stream, message):
             if fault.operator == "late":
                 fault.acts()
@@ -252,6 +258,11 @@ def sending(fault: InjectedFault, send: Callable[[Any], Any]) -> Callable[[Any],
                 send(each)
 
     return sent
+
+
+def is_kept(publisher: Any) -> bool:
+    """Whether those who come later hear it too."""
+    return publisher.qos_profile.durability.name == "TRANSIENT_LOCAL"
 
 
 def _later(send: Callable[[Any], Any], message: Any) -> None:
@@ -310,10 +321,7 @@ def around_topics(fault: InjectedFault) -> None:
             qos_profile = other_qos(fault, qos_profile)
         publisher = old(self, msg_type, topic, qos_profile, **rest)
         if fault.is_at("sent", name):
-            if fault.operator == "extra_at_start":
-                fault.acts()
-                publisher.publish(msg_type())
-            publisher.publish = sending(fault, publisher.publish)
+            publisher.publish = sending(fault, publisher)
         return publisher
 
     @over(node, "create_subscription")

@@ -31,7 +31,7 @@ WORDS = {
     "stops_after": "after twelve there are no more",
     "once": "there is one, and no more",
     "twice": "each comes twice",
-    "extra_at_start": "an empty message comes first",
+    "extra_at_start": "an empty message comes before the first that is heard",
     "late": "each comes 0.3 s late",
     "no_second": "the second request gets no answer",
     "second_cancel_refused": "the second request to cancel is refused",
