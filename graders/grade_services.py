@@ -47,7 +47,9 @@ SERVER, CLIENT = CARD.node("motor_controller"), CARD.node("motor_client")
 STATE = SERVER.publishes[0]
 SET_MAX_SPEED, RESET = SERVER.of(ServiceWords).serves
 ASKED = CLIENT.of(ServiceWords).calls[0]
-RESET_AGAIN = RESET.whatever_it_answers
+RESET_AGAIN = RESET.model_copy(update={"answers": RESET.answers[-1:]})
+"""Asked when the limit is off already: each time the same is to come."""
+
 IN_A_ROW, CLIENTS, TIMES, RESETS = 100, 4, 25, 20
 FREE = RESET.answers[-1].state
 """What the state says while there is no limit."""
