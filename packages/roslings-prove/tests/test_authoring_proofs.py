@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from roslings.course import Lab, all_labs, root
+from roslings.course.files import read_tree
 from roslings.workspace import normal
 from roslings.workspace.normal import digest_of, digest_of_file
 from roslings_launcher.seeds import other_pythons
@@ -354,7 +355,7 @@ def test_of_a_grader_the_experiments_count(
     assert (now.experiments(other) != now.experiments(lab)) == is_stale
 
 
-def test_of_a_card_all_counts_but_its_points_and_comments(tmp_path: Path) -> None:
+def test_of_a_card_all_counts_but_points_prose_and_comments(tmp_path: Path) -> None:
     """What only judges is tried each time."""
     lab = LABS["topics"]
     other = replace(lab, folder=tmp_path)
@@ -365,6 +366,11 @@ def test_of_a_card_all_counts_but_its_points_and_comments(tmp_path: Path) -> Non
     rate = "        rate: {hz: 2"
     assert rate in text
     card.write_text(text.replace(rate, f"        numbers_within: 0.5\n{rate}"), "utf-8")
+    assert card_digest(other) == card_digest(lab)
+    card.write_text(f"{text}  - one more word\n", "utf-8")
+    assert read_tree(card)["not_judged"][-1] == "one more word"
+    assert card_digest(other) == card_digest(lab)
+    card.write_text(text.replace(rate, f"        about: how the rover is\n{rate}"), "utf-8")
     assert card_digest(other) == card_digest(lab)
     card.write_text(text.replace("hz: 2", "hz: 3"), "utf-8")
     assert card_digest(other) != card_digest(lab)

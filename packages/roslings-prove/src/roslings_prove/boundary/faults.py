@@ -98,9 +98,8 @@ def _of_node(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:
         for topic in topics:
             found = _of_values(lab, program, kind, topic.topic, fields_of(lab, topic.type))
             yield from (each for each in found if not _nobody_can_tell(each, topic))
-            if "qos" in topic.model_fields_set:
-                for operator in sorted({"reliability", "durability"} & topic.qos.model_fields_set):
-                    yield BoundaryFault(lab, program, f"{kind} qos", operator, topic.topic)
+            for operator in sorted(_of_qos(kind, topic)):
+                yield BoundaryFault(lab, program, f"{kind} qos", operator, topic.topic)
     yield from _of_services(lab, node)
     yield from _of_actions(lab, node)
     yield from _of_parameters(lab, node)
@@ -145,15 +144,33 @@ def _of_parameters(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:
             yield BoundaryFault(lab, node.executable, "parameter", operator, parameter.name)
 
 
-def _nobody_can_tell(fault: BoundaryFault, topic: TopicContract) -> bool:
-    """Of messages that come again and again, nobody knows which one is the first.
+STRONGER = {"reliability": "reliable", "durability": "transient_local"}
+"""What a publisher offers to each subscription; who asks for it hears from no other one."""
 
-    Only a topic that keeps its last message for those who come later is to have it from the start.
+
+def _of_qos(kind: str, topic: TopicContract) -> Iterator[str]:
+    """What the card says of it, where the other word does not match any more.
+
+    Who offers more than is asked for, or asks for less, is as good, unless the card wants this word.
     """
-    latched = topic.qos.durability == "transient_local"
-    return (
-        fault.kind == "sent" and fault.operator == "drop_first" and bool(topic.rate) and not latched
-    )
+    if "qos" not in topic.model_fields_set:
+        return
+    for word in topic.qos.model_fields_set & STRONGER.keys():
+        is_stronger = getattr(topic.qos, word) == STRONGER[word]
+        if topic.qos.exact or is_stronger == (kind == "sent"):
+            yield word
+
+
+def _nobody_can_tell(fault: BoundaryFault, topic: TopicContract) -> bool:
+    """Messages that come again and again: nobody knows which is the first, nor when it was due.
+
+    One that is missing is within what a rate may be off, unless their text counts. A topic that
+    keeps its last message for those who come later is to have it from the start.
+    """
+    if fault.kind != "sent" or not topic.rate or topic.qos.durability == "transient_local":
+        return False
+    unseen = {"drop_first", "late"} if topic.text else {"drop_first", "late", "drop_second"}
+    return fault.operator in unseen
 
 
 def _of_the_graph(lab: Lab) -> Iterator[BoundaryFault]:

@@ -26,10 +26,12 @@ from typing import Any
 MARK = "boundary: the fault acts"
 NTH = 5
 """Which message `drop_nth` drops, counted from 1; then each so many."""
-GAP = range(6, 10)
-"""The messages that `gap` loses, counted from 1."""
-STOPS_AFTER = 12
-"""So many messages pass before `stops_after`, and so many events before `ends_after`."""
+GAP, GAP_EACH = range(6, 10), 20
+"""The messages that `gap` loses of each twenty, counted from 1."""
+STOPS_AFTER = 6
+"""So many messages pass before `stops_after`: a check watches a slow topic for a few more."""
+ENDS_AFTER = 12
+"""So many events pass before `ends_after`."""
 LATE_S = 0.3
 ENDS_LATE_S = 4.0
 EXIT_CODE = 3
@@ -62,7 +64,7 @@ class InjectedFault:
     def count(self) -> None:
         """A message or a call has crossed the boundary."""
         self.events += 1
-        if self.kind == "events" and self.events > STOPS_AFTER:
+        if self.kind == "events" and self.events > ENDS_AFTER:
             self.acts()
             os._exit(0)
 
@@ -108,7 +110,7 @@ def turned_when_repeated(value: Any, memory: Memory) -> Any:
 FIELDS: dict[str, Callable[[Any, Memory], Any]] = {
     "neutral": lambda value, memory: value,
     "zero": lambda value, memory: type(value)(),
-    "negated": lambda value, memory: not value if isinstance(value, bool) else -value,
+    "negated": lambda value, memory: not value if isinstance(value, bool) else -value or value,
     "absolute": lambda value, memory: abs(value),
     "doubled": lambda value, memory: 2 * value,
     "nan": lambda value, memory: math.nan,
@@ -120,6 +122,28 @@ FIELDS: dict[str, Callable[[Any, Memory], Any]] = {
     "of_first": of_first,
     "turned_when_repeated": turned_when_repeated,
 }
+
+
+INCOMING = ("heard", "read", "request", "goal")
+"""Places where a program gets a message: a field that it does not look at changes nothing there."""
+
+
+def watch(message: Any, path: str, read: Callable[[], None]) -> None:
+    """Let the message call `read` when somebody looks at this field.
+
+    It stays of its type for all who ask: a subclass by the same name.
+    """
+    *way, last = path.split(".")
+    inner = functools.reduce(getattr, way, message)
+    kind = type(inner)
+    field = getattr(kind, last)
+
+    def look(self: Any) -> Any:
+        read()
+        return field.fget(self)
+
+    words = {"__slots__": (), "__module__": kind.__module__, last: property(look, field.fset)}
+    inner.__class__ = type(kind.__name__, (kind,), words)
 
 
 class FieldChange:
@@ -150,7 +174,11 @@ class FieldChange:
         changed = copy.deepcopy(message)
         for field, value in values.items():
             put(changed, field, value)
-        self._fault.acts()
+        if self._fault.kind not in INCOMING:
+            self._fault.acts()
+            return changed
+        for field in values:
+            watch(changed, field, self._fault.acts)
         return changed
 
 
@@ -201,7 +229,7 @@ class Stream:
         return (
             (operator == "drop_first" and self._count == 1)
             or (operator == "drop_second" and self._count == 2)
-            or (operator == "gap" and self._count in GAP)
+            or (operator == "gap" and self._count % GAP_EACH in GAP)
             or (operator == "drop_nth" and self._count % NTH == 0)
             or (operator == "stops_after" and self._count > STOPS_AFTER)
             or (operator == "once" and self._count > 1)

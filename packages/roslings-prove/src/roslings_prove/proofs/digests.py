@@ -42,8 +42,8 @@ BUILT_TYPES = f"{built_interfaces.FOLDER}/*"
 """The course's message types as they are loaded."""
 BROUGHT = ("interfaces", "firmware")
 """Folders of a lab that its nodes are built with or talk to."""
-JUDGED_ONLY = ("points", "numbers_within")
-"""Words of a card that no experiment looks at."""
+JUDGED_ONLY = ("points", "numbers_within", "about", "not_judged")
+"""Words of a card that no experiment looks at: what only judges, and prose for people."""
 CAPABILITY = re.compile(rf"(roslings\.capabilities\.[a-z]+|{GRADERS}\.\w+)\..+")
 READ_WITH = ("contract", "record")
 """Modules by which a card and evidence of a capability are read."""
