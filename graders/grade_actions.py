@@ -99,6 +99,9 @@ IMPOSSIBLE = {
     "tolerance is nan": ({"tolerance": math.nan}, "the tolerance is no number"),
     "tolerance is infinite": ({"tolerance": math.inf}, "a robot is always so near"),
 }
+OF_RESULTS = {"result": ("WrongResult", "WrongEnd", "SucceedForgotten")}
+"""What goes wrong at each goal is told at the first."""
+
 NODES = [SERVER.executable, CLIENT.executable]
 IN_A_ROW = [f"{n} in a row" for n in range(1, 11)]
 """Goals that are cancelled at once, one after the other."""
@@ -305,10 +308,11 @@ def test_result(driving: ExperimentView) -> None:
     driving.must(succeed(SERVER, "first"))
 
 
-@check(needs=["arrives"])
+@check(needs=["arrives"], explained_by=OF_RESULTS)
 def test_next_goal(driving: ExperimentView) -> None:
     """After one goal it takes the next."""
     driving.must(accept_again(SERVER, "next", "after a goal that was reached"))
+    driving.must(succeed(SERVER, "next"))
 
 
 @check(needs=["not_blocked"])
@@ -324,10 +328,11 @@ def test_stops(cancelling: ExperimentView) -> None:
     cancelling.must(stop_in_time(SERVER, DRIVE_TO, "cancelled"))
 
 
-@check(needs=["cancel", "arrives"], explained_by={"next_goal": "StaysBusy"})
+@check(needs=["cancel", "arrives"], explained_by={"next_goal": "StaysBusy", **OF_RESULTS})
 def test_after_cancel(cancelling: ExperimentView, hurried: ExperimentView) -> None:
     """After a cancel it takes the next goal, and another one after each cancel."""
     cancelling.must(accept_again(SERVER, "after", "after a goal that was cancelled"))
+    cancelling.must(succeed(SERVER, "after"))
     hurried.must(cancel_each(SERVER, IN_A_ROW, "after goals that were cancelled"))
 
 

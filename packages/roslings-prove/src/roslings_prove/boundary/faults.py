@@ -151,7 +151,7 @@ STRONGER = {"reliability": "reliable", "durability": "transient_local"}
 def _of_qos(kind: str, topic: TopicContract) -> Iterator[str]:
     """What the card says of it, where the other word does not match any more.
 
-    Who offers more than is asked for, or asks for less, is as good, unless the card wants this word.
+    Who offers more than is asked for, or asks for less, is as good, unless the card is exact.
     """
     if "qos" not in topic.model_fields_set:
         return
