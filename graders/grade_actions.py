@@ -41,6 +41,7 @@ from roslings.capabilities.actions.demands import (
     show_each,
 )
 from roslings.capabilities.parameters.contract import ParameterWords
+from roslings.capabilities.topics.relay import leave_at_zero
 from roslings.course import lab
 from roslings.course.files import written
 from roslings.experiment import Scene, experiment
@@ -253,6 +254,7 @@ def test_topics(driving: ExperimentView) -> None:
     """It publishes on {CMD_VEL.topic} and subscribes to {ODOM.topic}."""
     driving.publisher(SERVER, CMD_VEL).must(be_there, be_the_only_one, carry_its_type, match_qos)
     driving.subscription(SERVER, ODOM).must(be_there, carry_its_type, match_qos)
+    driving.topic(CMD_VEL).must(leave_at_zero("linear.x", "angular.z"))
 
 
 @check(needs=["server_runs"])

@@ -30,6 +30,7 @@ from roslings.capabilities.serial.demands import (
     tell_the_motion,
     tell_the_speeds,
 )
+from roslings.capabilities.topics.relay import leave_at_zero
 from roslings.course import lab
 from roslings.experiment import Scene, experiment
 from roslings.judge import (
@@ -59,6 +60,15 @@ BRIDGE = CARD.node("serial_bridge")
 PORT, BAUD, FASTEST = BRIDGE.of(ParameterWords).named("port", "baud", "max_wheel_speed")
 MEASURES = BRIDGE.of(ParameterWords).named("wheel_radius", "wheel_separation")
 WHEELS, ODOM = BRIDGE.publishes
+ON_THE_FLOOR = (
+    "pose.pose.position.x",
+    "pose.pose.position.y",
+    "pose.pose.orientation",
+    "twist.twist.linear.x",
+    "twist.twist.angular.z",
+)
+"""A rover neither rises nor tilts, and its wheels do not go sideways."""
+
 CMD_VEL = BRIDGE.subscribes[0]
 STRAIGHT, TURN, ARC = (0.3, 0.0), (0.0, 1.2), (0.25, -0.4)
 """The motions of the test drive: metres a second forward, radians a second to the left."""
@@ -333,6 +343,7 @@ def test_arc(driving: ExperimentView) -> None:
     driving.topic(ODOM).must(
         know_the_way(driving, "turn", "arc"), tell_the_motion(driving, "arc, driving", USUAL)
     )
+    driving.topic(ODOM).must(leave_at_zero(*ON_THE_FLOOR))
 
 
 # --- another rover -----------------------------------------------------------------------------

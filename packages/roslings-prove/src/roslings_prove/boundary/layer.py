@@ -290,7 +290,7 @@ def sending(fault: InjectedFault, publisher: Any) -> Callable[[Any], None]:
 
 def is_kept(publisher: Any) -> bool:
     """Whether those who come later hear it too."""
-    return publisher.qos_profile.durability.name == "TRANSIENT_LOCAL"
+    return str(publisher.qos_profile.durability.name) == "TRANSIENT_LOCAL"
 
 
 def _later(send: Callable[[Any], Any], message: Any) -> None:

@@ -30,6 +30,7 @@ from roslings.judge.views import Demand, ExperimentView, ProcessView, TopicView
 from roslings.seen.matching import nearest_endpoint
 
 FRESH_S = 1.0
+NOT_FINITE = ("NaN", "Infinity", "-Infinity")
 LONGEST_PAUSE_S = 0.1
 
 Wanted = Callable[[int, Fields], Plain | None]
@@ -47,6 +48,33 @@ def hold_its_fields(topic: TopicView) -> None:
             if not same(found, wanted, topic.contract.numbers_within):
                 looks = looks_of(found, wanted)
                 raise faults.WrongField(topic.name, name, shown(wanted), shown(found), looks)
+
+
+def leave_at_zero(*filled: str) -> Demand[TopicView]:
+    """Each number of a message is 0, but for fields that are `filled`, by their names with dots.
+
+    A field stands for all that is in it. Lists, as those of a covariance, and whole numbers are not
+    looked at. Where no message came, there is nothing wrong in one.
+
+    >>> driving.topic(CMD_VEL).must(leave_at_zero("linear.x", "angular.z"))
+    """
+
+    def demand(topic: TopicView) -> None:
+        for content in (m.content for m in topic.messages if isinstance(m.content, dict)):
+            for name, found in _numbers_in(content):
+                if found != 0 and not any(f"{name}.".startswith(f"{each}.") for each in filled):
+                    raise faults.WrongField(topic.name, name, shown(0.0), shown(found))
+
+    return demand
+
+
+def _numbers_in(content: Fields, before: str = "") -> Iterator[tuple[str, object]]:
+    """Each field of floating point with its value; kept evidence has texts for NaN and infinity."""
+    for name, value in content.items():
+        if isinstance(value, float) or value in NOT_FINITE:
+            yield before + name, value
+        elif isinstance(value, dict):
+            yield from _numbers_in(value, f"{before}{name}.")
 
 
 def carry_its_time(topic: TopicView) -> None:
