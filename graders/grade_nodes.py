@@ -145,7 +145,7 @@ def test_logs(alone: ExperimentView) -> None:
 # --- the same node, started in other ways ------------------------------------------------------
 
 
-@check(needs=["stays"])
+@check(needs=["stays"], explained_by={"rate": "FallsSilent"})
 def test_parameter(quicker: ExperimentView) -> None:
     """The parameter {PERIOD.name} sets the seconds from message to message."""
     quicker.process(NODE).must(come_up, stay_up)

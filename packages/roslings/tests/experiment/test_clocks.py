@@ -30,6 +30,7 @@ FOLLOW_THE_CLOCK = ("composed", "functions", "looks_back", "timer", "two_nodes")
 TRICKY = {
     "bursts": "Bursts",
     "bursts_of_a_thousand": "Bursts",
+    "falls_silent": "FallsSilent",
     "large_messages": "right",
     "looks_back_at_its_start": "right",
     "no_parameter_services": "right",

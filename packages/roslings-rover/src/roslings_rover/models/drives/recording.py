@@ -139,13 +139,27 @@ def _times(plan: DrivePlan, topic: TopicPlan, chance: Chance) -> Iterator[float]
         due_s += period_s * topic.pauses.get(number, 1.0)
 
 
+def wheels_of(plan: DrivePlan, time_s: float, body: Body) -> Wheels:
+    """How fast the wheels of this drive turn."""
+    wanted = body.wheels_for(plan.piece_at(time_s).motion)
+    return Wheels(wanted.left_rad_s * plan.left, wanted.right_rad_s * plan.right)
+
+
+def ways(plan: DrivePlan) -> Iterator[Pose]:
+    """Where the rover is, from its begin, each `STEP_S`."""
+    body, pose = Body(), plan.begin
+    for step in range(int(plan.seconds / STEP_S) + 1):
+        yield pose
+        pose = moved(pose, body.motion_of(wheels_of(plan, step * STEP_S, body)), STEP_S)
+
+
 class _Surroundings:
     """The rover and its room at any time of a drive."""
 
     def __init__(self, plan: DrivePlan) -> None:
         self._plan, self._body = plan, Body()
         chance = Chance(f"{plan.seed} surroundings")
-        self._poses = list(self._ways())
+        self._poses = list(ways(plan))
         self._warmth = chance.between(22, 27), chance.between(6, 14)
         self._volts = chance.between(7.6, 8.3), chance.between(0.2, 0.9)
         self._lux = chance.between(250, 400), chance.between(60, 140), chance.between(7, 15)
@@ -206,14 +220,7 @@ class _Surroundings:
         return (float(any(0 <= time_s - bump < 0.5 for bump in self._bumps)),)
 
     def _wheels(self, time_s: float) -> Wheels:
-        wanted = self._body.wheels_for(self._plan.piece_at(time_s).motion)
-        return Wheels(wanted.left_rad_s * self._plan.left, wanted.right_rad_s * self._plan.right)
-
-    def _ways(self) -> Iterator[Pose]:
-        pose = self._plan.begin
-        for step in range(int(self._plan.seconds / STEP_S) + 1):
-            yield pose
-            pose = moved(pose, self._body.motion_of(self._wheels(step * STEP_S)), STEP_S)
+        return wheels_of(self._plan, time_s, self._body)
 
 
 _VALUES = {

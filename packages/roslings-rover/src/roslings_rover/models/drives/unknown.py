@@ -15,6 +15,7 @@ from roslings_rover.models.drives.recording import (
     RecordedMessage,
     TopicPlan,
     recorded,
+    ways,
 )
 from roslings_rover.models.drives.sheet import BATTERY, IMU, LIGHT, ODOM, RANGE, SHEET, TopicSheet
 from roslings_rover.models.drives.sick_rover import START_S
@@ -59,11 +60,18 @@ def unknown_drive(seed: int, odometry: str, gap_periods: float) -> RecordedDrive
     chance = Chance(f"unknown drive {seed}")
     start_ns = (START_S - int(chance.between(0, 10_000_000))) * NS + int(chance.between(0, NS))
     pieces = tuple(_pieces(chance))
-    plan = DrivePlan(
-        f"{seed}", start_ns, pieces, (), Pose(*(chance.around(0, 3) for _ in range(3)))
-    )
+    plan = DrivePlan(f"{seed}", start_ns, pieces, (), Pose(0.0, 0.0, chance.around(0, 3)))
+    plan = replace(plan, begin=_across_both_axes(plan))
     plan = replace(plan, topics=tuple(_topics(chance, odometry, plan.seconds, gap_periods)))
     return _with_others(as_drive(plan, tuple(recorded(plan))), chance)
+
+
+def _across_both_axes(plan: DrivePlan) -> Pose:
+    """A begin from which the way has places on both sides of each axis."""
+    poses = list(ways(plan))
+    xs, ys = [pose.x_m for pose in poses], [pose.y_m for pose in poses]
+    middle_x_m, middle_y_m = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
+    return replace(plan.begin, x_m=-middle_x_m, y_m=-middle_y_m)
 
 
 def without(drive: RecordedDrive, topic: str) -> RecordedDrive:

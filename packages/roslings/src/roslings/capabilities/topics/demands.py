@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 
-from ros2_on_pip.rates import Rate
+from ros2_on_pip.rates import NS_PER_S, Rate
 from roslings.capabilities.topics.faults.messages import (
     CountRepeats,
     CountRestarts,
@@ -12,14 +13,23 @@ from roslings.capabilities.topics.faults.messages import (
     NoMessages,
     WrongText,
 )
-from roslings.capabilities.topics.faults.rhythm import Bursts, SentAgain, TooSlow, rate_fault
+from roslings.capabilities.topics.faults.rhythm import (
+    Bursts,
+    FallsSilent,
+    SentAgain,
+    TooSlow,
+    rate_fault,
+)
 from roslings.capabilities.topics.reasons import LostOnTheWay, NearTheLimits
 from roslings.course import RateContract, TopicContract
 from roslings.course.files import written
 from roslings.judge.demands import require_believable, require_steady
 from roslings.judge.views import Demand, TopicView, text_pattern
+from roslings.seen.rates import in_the_watch
 
 MOST_LOST_PART = 0.05
+SILENT_PERIODS = 3.5
+"""Messages that do not come for so many periods: each timer of it has run three times meanwhile."""
 
 
 def have_rate(contract: TopicContract) -> Demand[TopicView]:
@@ -32,6 +42,11 @@ def have_rate(contract: TopicContract) -> Demand[TopicView]:
         if rate is None:
             require_steady(topic.experiment.stall_s)
             raise NoMessages(topic.name, len(topic.messages), topic.experiment.watching_s)
+        silent_s = fell_silent_s(topic)
+        if silent_s > SILENT_PERIODS * rate.period_s:
+            require_steady(topic.experiment.stall_s)
+            count = len(in_the_watch(topic.messages, topic.experiment))
+            raise FallsSilent(topic.name, limit.hz, limit.within, rate, count, silent_s)
         kind = rate_fault(rate, limit.low_hz, limit.high_hz)
         if kind not in (Bursts, SentAgain):
             require_enough(topic, rate, limit)
@@ -43,6 +58,20 @@ def have_rate(contract: TopicContract) -> Demand[TopicView]:
             raise kind(topic.name, limit.hz, limit.within, rate)
 
     return demand
+
+
+def fell_silent_s(topic: TopicView) -> float:
+    """So long before the end of a watch in real time came the last message; 0 where none was due.
+
+    A node that had ended by then is told as such. What this computer may have kept from the node
+    is taken away.
+    """
+    seen, until_ns = topic.experiment, topic.experiment.rate_until_ns
+    ended = any((each.ended_ns or math.inf) < (until_ns or 0) for each in seen.processes.values())
+    said = in_the_watch(topic.messages, seen)
+    if until_ns is None or seen.clock != "wall" or ended or not said:
+        return 0.0
+    return (until_ns - said[-1].arrival_ns) / NS_PER_S - seen.stall_s - seen.cpu_wait_s
 
 
 def require_enough(topic: TopicView, rate: Rate, limit: RateContract) -> None:

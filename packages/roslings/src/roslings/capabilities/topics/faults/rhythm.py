@@ -68,6 +68,21 @@ class TooSlow(WrongRate):
 
 
 @dataclass(eq=False)
+class FallsSilent(TooSlow):
+    """The messages came at the rate, and then there were no more, while the node ran on."""
+
+    count: int = 0
+    silent_s: float = 0.0
+    why = "Who listens waits for the next message, and nothing tells that it will not come."
+    measured = "{count} messages, and then none for {silent_s:.1f} s"
+    hint = "What is another in the timer's function after {count} messages?"
+    mend = (
+        "The timer's function must publish each time. Look for a condition, a return or a cancel()"
+        " before publish(), and for what counts the messages."
+    )
+
+
+@dataclass(eq=False)
 class TooFast(WrongRate):
     """More messages than asked for."""
 
