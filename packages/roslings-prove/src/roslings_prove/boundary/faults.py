@@ -162,15 +162,18 @@ def _of_qos(kind: str, topic: TopicContract) -> Iterator[str]:
 
 
 def _nobody_can_tell(fault: BoundaryFault, topic: TopicContract) -> bool:
-    """Messages that come again and again: nobody knows which is the first, nor when it was due.
+    """A message that may be lost all the same, or of which nobody knows when it was due.
 
-    One that is missing is within what a rate may be off, unless their text counts. A topic that
-    keeps its last message for those who come later is to have it from the start.
+    Whoever joins a topic may miss the first message, unless it is kept for those who come later. Of
+    messages that come again and again, one that is missing is within what a rate may be off, unless
+    their text counts.
     """
-    if fault.kind != "sent" or not topic.rate or topic.qos.durability == "transient_local":
+    if topic.qos.durability == "transient_local":
         return False
+    if fault.kind == "heard":
+        return fault.operator == "drop_first"
     unseen = {"drop_first", "late"} if topic.text else {"drop_first", "late", "drop_second"}
-    return fault.operator in unseen
+    return fault.kind == "sent" and bool(topic.rate) and fault.operator in unseen
 
 
 def _of_the_graph(lab: Lab) -> Iterator[BoundaryFault]:
