@@ -20,6 +20,8 @@ from roslings_prove.generated.explained import BOUNDARY
 
 LAYER = "boundary_layer"
 ODOMETRY = "nav_msgs/msg/Odometry"
+EACH_TOPIC = ""
+"""The end of any name."""
 
 
 @dataclass(frozen=True)
@@ -194,8 +196,9 @@ def _of_bags(lab: Lab) -> Iterator[BoundaryFault]:
     if reads is None:
         return
     name = ODOMETRY.rpartition("/")[2]
-    for operator in of_flow("read", []):
-        yield BoundaryFault(lab, reads.executable, "read", operator, reads.odometry)
+    for topic in (reads.odometry, EACH_TOPIC):
+        for operator in of_flow("read", []):
+            yield BoundaryFault(lab, reads.executable, "read", operator, topic)
     for fault in _of_fields(lab, reads.executable, "read", "", fields_of(lab, ODOMETRY)):
         if fault.operator != "swapped":
             yield BoundaryFault(

@@ -160,7 +160,7 @@ FIELD: dict[str, dict[str, tuple[str, ...]]] = {
         "string": ("zero", "of_before"),
     },
     "read": {
-        "number": ("zero", "negated", "absolute", "of_before", "swapped"),
+        "number": ("zero", "absolute", "of_before", "swapped"),
         "bool": (),
         "string": (),
     },
