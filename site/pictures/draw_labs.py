@@ -391,8 +391,8 @@ def wander() -> Sheet:
     """Along a wall, and before what moves it stands."""
     sheet = _room(
         "The rover drives along a wall, waits for something that moves, and drives on",
-        "The rover drives along a wall on its left, 0.4 m away. A grey thing rolls over its way, and"
-        " the rover stands until it is gone. Then it drives on.",
+        "The rover drives along a wall on its left, 0.4 m away. A grey thing rolls over its"
+        " way, and the rover stands until it is gone. Then it drives on.",
     )
     sheet.add(f'<rect x="30" y="44" width="650" height="22" rx="5" fill="{GREY}"/>')
     sheet.add(_line(50, 134, 680))
