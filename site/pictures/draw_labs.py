@@ -387,6 +387,40 @@ def e_stop() -> Sheet:
     return sheet
 
 
+def wander() -> Sheet:
+    """Along a wall, and before what moves it stands."""
+    sheet = _room(
+        "The rover drives along a wall, waits for something that moves, and drives on",
+        "The rover drives along a wall on its left, 0.4 m away. A grey thing rolls over its"
+        " way, and the rover stands until it is gone. Then it drives on.",
+    )
+    sheet.add(f'<rect x="30" y="44" width="650" height="22" rx="5" fill="{GREY}"/>')
+    sheet.add(_line(50, 134, 680))
+    sheet.text((120, 102), "0.4 m", size=15)
+    sheet.arrow((90, 118), (90, 70))
+    sheet.add(placed(470, 190, f'<circle r="16" fill="{GREY}"/>', name="thing"))
+    sheet.add(placed(90, 134, rover(scale=1.4), name="drive"))
+    sheet.text((300, 196), "/scan in, /cmd_vel out", size=15)
+    sheet.moves(
+        _moved(
+            "drive",
+            8,
+            "0% { transform: none } 30%, 60% { transform: translateX(260px) }"
+            " 95%, 100% { transform: translateX(540px) }",
+            "linear",
+            rests=_right(260),
+        )
+        + " "
+        + _moved(
+            "thing",
+            8,
+            "0%, 15% { transform: none } 30%, 45% { transform: translateY(-56px) }"
+            " 58%, 100% { transform: translateY(10px) }",
+        )
+    )
+    return sheet
+
+
 def _line(start: float, y: float, end: float) -> str:
     """The way that it goes."""
     return (
@@ -406,6 +440,7 @@ DRAWN: dict[str, Callable[[], Sheet]] = {
     "bring-up": bring_up,
     "black-box": black_box,
     "e-stop": e_stop,
+    "wander": wander,
 }
 """Lab to what draws it."""
 

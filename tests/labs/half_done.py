@@ -168,6 +168,16 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "beacon:Beacon.tell": {10: ("",)},
     },
     "black-box": {},
+    "wander": {
+        "wander:WALL": {5: ("",)},
+        "wander:STOP": {6: ("",)},
+        "wander:TIGH": {6: ("",)},
+        "wander:FAST": {5: ("",)},
+        "wander:LOST": {5: ("",)},
+        "wander:LOOK": {9: ("",)},
+        "wander:WAIT": {9: ("",)},
+        "wander:HAS_": {9: ("",)},
+    },
 }
 
 

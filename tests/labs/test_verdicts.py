@@ -115,6 +115,7 @@ NODES = {
         "launch_ends",
     },
     "black-box": set(),
+    "wander": {"runs", "name"},
 }
 """Lab to the checks that nodes pass which are there, and do nothing."""
 ALSO = {

@@ -22,6 +22,7 @@ OTHERS = [
     "bring-up",
     "black-box",
     "e-stop",
+    "wander",
 ]
 
 

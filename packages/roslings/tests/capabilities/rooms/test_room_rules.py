@@ -158,6 +158,13 @@ WRONG = {
         "in room 17 it stands before something that moves into its way is nearer than 0.20 m",
         "after 0.1 s it drove on, and came as near as 0.11 m",
     ),
+    "stands, and drives on": Wrong(
+        MEETS,
+        drive([*[tick(**thing(0.6))] * 20, *comes_as_near_as(0.11).ticks]),
+        faults.DrivesOn,
+        "in room 17 it stands before something that moves into its way is nearer than 0.20 m",
+        "after 0.1 s it drove on, and came as near as 0.11 m",
+    ),
     "stands late": Wrong(
         MEETS,
         stands_at(0.13),

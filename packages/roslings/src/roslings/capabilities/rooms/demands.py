@@ -131,10 +131,10 @@ def _drives_on(drive: RoomDriveSeen, met: Encounter, from_m: float) -> faults.Dr
     least_m = from_m / _wider(drive)
     if met.bumped:
         return faults.DrivesOn(drive.seed, from_m, met.from_s, "bumped", met.nearest_m)
-    if met.stood_m is None and met.nearest_m < least_m:
-        return faults.DrivesOn(drive.seed, from_m, met.from_s, "on", met.nearest_m)
     if met.stood_m is not None and met.stood_m < least_m:
         return faults.DrivesOn(drive.seed, from_m, met.from_s, "late", met.stood_m)
+    if met.nearest_m < least_m:  # it may have stood before: what moves comes no nearer by itself
+        return faults.DrivesOn(drive.seed, from_m, met.from_s, "on", met.nearest_m)
     return None
 
 

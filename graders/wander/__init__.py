@@ -1,0 +1,1 @@
+"""What only the lab "wander" measures: which rooms a grading drives in."""
