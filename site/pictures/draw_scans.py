@@ -27,6 +27,8 @@ SCAN_S, STEPS = 0.2, 10
 WALL_AT_M, SPEED_M_S = 0.4, 0.3
 GAINS = {"too small: 0.5": (0.5, AMBER), "right: 2": (2.0, GREEN), "too large: 12": (12.0, RED)}
 WALL_GAIN, DAMPING = 2.0, 4.0
+REACH = 180.0
+"""Pixels of the beams of a cone."""
 
 
 @dataclass(frozen=True)
@@ -98,8 +100,8 @@ def scan() -> Sheet:
     sheet.text((360, 34), "index 90: left, 90 degrees", colour=GREEN)
     sheet.text((228, 160), "index 180: behind", anchor="end", colour=BLACK)
     sheet.text((360, 308), "index 270: right, -90 degrees (minus 90)", colour=BLUE)
-    turn = "M440 80A118 118 0 0 0 398 52"
-    sheet.add(f'<path d="{turn}" fill="none" stroke="#444" stroke-width="2.5" marker-end="url(#a)"/>')
+    turn = 'd="M440 80A118 118 0 0 0 398 52" fill="none" marker-end="url(#a)"'
+    sheet.add(f'<path {turn} stroke="{BLACK}" stroke-width="2.5"/>')
     sheet.text((452, 76), "left is positive", anchor="start")
     return sheet
 
@@ -118,26 +120,26 @@ def cone() -> Sheet:
 
 
 def _beam_and_box(sheet: Sheet, top: float, wide: bool) -> None:
-    x, y = 110.0, top + 86
+    x, y = 110.0, top + 73
     sheet.add(
         f'<rect x="14" y="{top:g}" width="692" height="146" rx="10" fill="{FLOOR}"'
         f' stroke="{TEAL}" stroke-width="2"/>'
     )
     if wide:
-        (x1, y1), (x2, y2) = _end(20, 190), _end(-20, 190)
+        (x1, y1), (x2, y2) = _end(20, REACH), _end(-20, REACH)
         sheet.add(
             f'<path d="M{x:g} {y:g}L{x + x1:.1f} {y + y1:.1f}L{x + x2:.1f} {y + y2:.1f}Z"'
             f' fill="{RED}" fill-opacity="0.2"/>'
         )
         for degrees in range(-20, 21, 5):
-            dx, dy = _end(degrees, 190)
+            dx, dy = _end(degrees, REACH)
             sheet.wire((x, y), (x + dx, y + dy), colour=RED)
     else:
         sheet.arrow((x, y), (680.0, y), colour=RED)
         for side in (-32, 32):
             line = f'd="M{x:g} {y + side:g}H400" stroke="{DARK}" stroke-dasharray="4 6"'
             sheet.add(f'<path {line} stroke-width="2"/>')
-    sheet.add(f'<rect x="250" y="{y - 62:g}" width="90" height="44" rx="4" fill="{DARK}"/>')
+    sheet.add(f'<rect x="250" y="{y - 58:g}" width="90" height="44" rx="4" fill="{DARK}"/>')
     sheet.add(placed(x, y, rover(scale=2.0)))
     told = "a cone of 40 degrees hits the box" if wide else "a single beam goes past the box"
     sheet.text((420, y - 34), told, anchor="start")
@@ -186,7 +188,8 @@ def wall() -> Sheet:
     )
     left, top, px_per_m = 60.0, 46.0, 260.0
     wall_m = room_wall_m()
-    sheet.add(f'<rect x="20" y="20" width="680" height="{top - 20:g}" fill="{GREY}" stroke="{DARK}"/>')
+    size = f'width="680" height="{top - 20:g}"'
+    sheet.add(f'<rect x="20" y="20" {size} fill="{GREY}" stroke="{DARK}"/>')
     sheet.text((360, 39), "the wall, on the left of the rover")
     goal = top + WALL_AT_M * px_per_m
     line = f'd="M20 {goal:g}H700" stroke="{BLACK}" stroke-width="2" stroke-dasharray="3 7"'
@@ -198,7 +201,8 @@ def wall() -> Sheet:
         _curve(sheet, at, colour)
     sheet.add(placed(left, top + wall_m * px_per_m, rover()))
     sheet.text((60, 306), "error alone: it swings", anchor="start", colour=RED)
-    sheet.text((330, 306), "error and change: it goes to 0.4 m, and stays", anchor="start", colour=GREEN)
+    told = "error and change: it goes to 0.4 m, and stays"
+    sheet.text((330, 306), told, anchor="start", colour=GREEN)
     return sheet
 
 
@@ -224,7 +228,7 @@ def stop() -> Sheet:
         " scans it goes 0.1 m. One that comes late costs 0.1 m more.",
         250,
     )
-    y, first, between = 120.0, 90.0, 180.0
+    y, first, between = 130.0, 84.0, 226.0
     sheet.add(f'<rect x="664" y="20" width="40" height="210" fill="{GREY}" stroke="{DARK}"/>')
     sheet.text((654, 40), "a wall", anchor="end")
     told = (
@@ -235,8 +239,8 @@ def stop() -> Sheet:
     for number, (text, colour) in enumerate(told):
         x = first + number * between
         sheet.add(placed(x, y, rover(TEAL if number < 2 else "#b3382c", scale=1.4)))
-        sheet.text((x, y - 46), text, colour=colour)
-    sheet.text((first + 2 * between, y - 26), "where scan 2 was late", colour=AMBER)
+        sheet.text((x, y - (68 if number == 2 else 46)), text, colour=colour)
+    sheet.text((first + 2 * between, y - 46), "where scan 2 was late", colour=AMBER)
     for (a, b), label in zip(
         pairwise(first + n * between for n in range(3)), ("0.2 s: 0.1 m", "0.1 m more"), strict=True
     ):
