@@ -1,4 +1,4 @@
-"""The laser of this drill: eight beams, the first one ahead, the next ones to its left."""
+"""The laser of this drill: eight beams, the first ahead, the next to its left."""
 
 import math
 
