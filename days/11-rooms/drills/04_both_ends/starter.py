@@ -2,7 +2,7 @@
 ahead, from 45 degrees on the right to 45 degrees on the left. It prints "blocked"
 where something in it is nearer than 0.5 m, else "free". This laser has eight beams.
 
-The drill runs the laser, too. By hand, start it in another terminal: python3 gate_laser.py
+The drill runs the laser, too. By hand, start it in another terminal: python3 gate.py
 """
 
 import rclpy
