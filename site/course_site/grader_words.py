@@ -184,10 +184,16 @@ def demanded_of(word: Word) -> str:
 
 def _modules() -> Iterator[str]:
     """All of the capabilities: what a room offers stands in more than one; the main ones first."""
-    for name in BUILT_IN:
+    for name in _capabilities():
         folder = _file(f"{ENGINE}.capabilities.{name}").parent
         for file in sorted(folder.glob("*.py"), key=lambda file: (file.stem not in MAIN, file)):
             yield f"{ENGINE}.capabilities.{name}.{file.stem}"
+
+
+def _capabilities() -> list[str]:
+    """The built-in ones, and what else lies beside them: that comes in by an entry point."""
+    beside = _file(f"{ENGINE}.capabilities").parent.glob("*/__init__.py")
+    return [*BUILT_IN, *sorted({file.parent.name for file in beside} - set(BUILT_IN))]
 
 
 def _acts(module: str) -> bool:

@@ -6,12 +6,13 @@ far, on the right what the day's nodes do on it. Names are those of the cards of
 
 from __future__ import annotations
 
+import math
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 from rover import COLOURS, PARTS, ball, button, flag, floor, grown, laptop, placed, rover, waves
-from sheet import AMBER, BLACK, GREEN, Sheet
+from sheet import AMBER, BLACK, GREEN, RED, Sheet
 
 MIDDLE = (190.0, 140.0)
 HEIGHT = 280
@@ -109,6 +110,13 @@ DAYS: dict[str, Shown] = {
             Row("/guard", "lets /cmd_vel through, or stops"),
         ),
     ),
+    "11-rooms": Shown(
+        "a laser that sees all around",
+        (
+            Row("/wander", "hears /scan, and says /cmd_vel"),
+            _boxed("a room", "nobody has seen it before"),
+        ),
+    ),
 }
 """In the order of the path."""
 
@@ -162,7 +170,18 @@ def _around(day: int) -> list[str]:
             f'<path d="M72 202C72 60 130 40 {x - 14:g} {y - 70:g}" fill="none" stroke="{AMBER}"'
             ' stroke-width="3" stroke-dasharray="6 6" marker-end="url(#a)"/>',
         ],
+        11: [placed(x + 37, y, _beams(122))],
     }.get(day, [])
+
+
+def _beams(length: float) -> str:
+    """Of a laser, one each 15 degrees."""
+    ends = (
+        (length * math.cos(angle), length * math.sin(angle))
+        for angle in map(math.radians, range(0, 360, 15))
+    )
+    lines = "".join(f"M0 0L{x:.1f} {y:.1f}" for x, y in ends)
+    return f'<path d="{lines}" stroke="{RED}" stroke-width="2" stroke-opacity="0.45"/>'
 
 
 def _mark(sheet: Sheet, day: int) -> None:
@@ -170,7 +189,7 @@ def _mark(sheet: Sheet, day: int) -> None:
     if day not in PARTS:
         return
     (dx, dy), (x, y) = PARTS[day][1], MIDDLE
-    radius = {1: 44, 3: 24, 6: 36}.get(day, 28)
+    radius = {1: 44, 3: 24, 6: 36, 11: 20}.get(day, 28)
     sheet.add(
         f'<circle cx="{x + dx:g}" cy="{y + dy:g}" r="{radius}" fill="none" stroke="#e8793a"'
         ' stroke-width="4"/>'

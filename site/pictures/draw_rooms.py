@@ -6,7 +6,7 @@ The page of the rover shows it as `reference/pictures/rooms.svg`.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -57,9 +57,9 @@ def tile(room: SeededRoom, number: int) -> Tile:
     )
 
 
-def sheet() -> Sheet:
+def sheet(seeds: Sequence[int] = SEEDS) -> Sheet:
     """All of them, and what the signs mean."""
-    rooms = [room_of(seed) for seed in SEEDS]
+    rooms = [room_of(seed) for seed in seeds]
     found = Sheet(TITLE, _told(rooms), round(LEGEND_PX + TILE[1] * len(rooms) / COLUMNS + 10))
     _legend(found)
     for number, room in enumerate(rooms):

@@ -168,6 +168,14 @@ def stop() -> str:
     return f'<g transform="translate(-14 -41)">{button(13)}</g>'
 
 
+def laser() -> str:
+    """A lidar in the middle of the nose: it turns, and looks all around."""
+    return (
+        f'<circle cx="37" r="12" fill="{DARK}" stroke="#ffffff" stroke-width="2"/>'
+        f'<path d="M37 0L46 -5" stroke="{RED}" stroke-width="3" stroke-linecap="round"/>'
+    )
+
+
 def _knob(x: float, y: float, radius: float) -> str:
     return (
         f'<circle cx="{x:g}" cy="{y:g}" r="{radius:g}" fill="#d0d7de" stroke="#57606a"'
@@ -185,6 +193,7 @@ PARTS: dict[int, tuple[Callable[[], str], tuple[float, float]]] = {
     7: (eyes, (66, 0)),
     9: (box, (48, 41)),
     10: (stop, (-14, -41)),
+    11: (laser, (37, 0)),
 }
 """Day to the part that it brings, and where that is; day 8 brings a second rover."""
 

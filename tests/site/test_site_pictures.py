@@ -159,6 +159,19 @@ def test_the_rooms_are_drawn_by_their_program(tmp_path: Path) -> None:
     assert {room_of(seed).kind for seed in seeds} == set(KINDS)
 
 
+def test_how_a_rover_sees_is_drawn_by_its_program(tmp_path: Path) -> None:
+    """Day 11's drawings: nobody edits one by hand, and each room that it names is drawn."""
+    drawn("draw_scans.py", tmp_path)
+    kept = root() / "days" / "11-rooms" / "pictures"
+    names = {each.name for each in tmp_path.iterdir()}
+    assert names | {"rover.svg"} == {each.name for each in kept.iterdir()}
+    for name in names:
+        assert (tmp_path / name).read_text("utf-8") == (kept / name).read_text("utf-8"), name
+    seeds = re.findall(r">Room (\d+): ", (kept / "rooms.svg").read_text("utf-8"))
+    lesson = (kept.parent / "lesson.ipynb").read_text("utf-8")
+    assert len(seeds) == 10 and set(re.findall(r"drive\((\d+),", lesson)) <= set(seeds)
+
+
 def test_the_page_tells_the_figures_of_rooms() -> None:
     """How wide a way is, how near what moves comes, how long it waits and a bump lasts."""
     text = (REFERENCE / "my-rover.md").read_text("utf-8").partition("## Rooms that")[2]
