@@ -45,6 +45,7 @@ from roslings_my_rover.parts import (
     PILOT,
     SONAR,
     VOICE,
+    WANDERER,
     RoverPart,
 )
 
@@ -269,6 +270,11 @@ def _stops(screen: Screen) -> None:
     screen.shows(lambda: "stop is pressed" in screen.text and screen.number("speed") == 0)
 
 
+def _wanders(screen: Screen) -> None:
+    screen.shows(lambda: screen.number("way") > 4)
+    assert "bumps     0" in screen.text, screen.text
+
+
 def _keeps_a_bag(screen: Screen) -> None:
     with screen.typing(f'{DRIVE} "{{linear: {{x: 0.4}}}}"'):
         screen.shows(lambda: screen.number("way") > 2)
@@ -370,6 +376,14 @@ WINS = (
         _stops,
         "The rover stands in the middle of its way. Below the map: Space: stop is pressed.",
         "--keys",
+    ),
+    Win(
+        11,
+        "wander",
+        (VOICE, WANDERER),
+        _wanders,
+        "The map of a room. The rover has gone along a wall by itself, and the map counts no bump.",
+        "--room 35",
     ),
 )
 

@@ -26,6 +26,7 @@ from roslings_my_rover.parts import (
     PILOT,
     SONAR,
     VOICE,
+    WANDERER,
     RoverPart,
 )
 from roslings_rover.models.world import default_world
@@ -122,6 +123,13 @@ def stops_at_the_button(rover: Carried) -> bool:
     return rover.drive(0.3, until_it=lambda: not rover.pose[3])
 
 
+def wanders(rover: Carried) -> bool:
+    """By itself, and in a room where two ways of three lead into something: it touches nothing."""
+    far_m = 2.5
+    went = rover.sees(lambda: "Bump" in rover.heard or math.hypot(*rover.pose[:2]) > far_m)
+    return went and "Bump" not in rover.heard
+
+
 @dataclass(frozen=True)
 class Win:
     """What one sees of a part, and a wrong package in which one does not."""
@@ -144,6 +152,7 @@ WINS = [
     Win(EYES, follows_the_ball, "topic_misspelt", ("--follow",)),
     Win(LIMITER, keeps_to_its_limit, "forward_without_limit"),
     Win(GUARD, stops_at_the_button, "button_topic_misspelt", keys=True),
+    Win(WANDERER, wanders, "commands_misspelt", ("--room", "35")),
 ]
 IDS = [win.part.name for win in WINS]
 LOOKED_FOR = [win for win in WINS if win.without and win.part is not VOICE]

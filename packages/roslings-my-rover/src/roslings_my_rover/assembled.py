@@ -15,12 +15,15 @@ from roslings_my_rover.crew import Crew, working
 from roslings_my_rover.drive_bag import NAME
 from roslings_my_rover.installing import BrokenPart, build_all
 from roslings_my_rover.parts import CABLE, EYES, RoverPart
-from roslings_my_rover.robot import MyRover
+from roslings_my_rover.robot import MyRover, node_for
 from roslings_my_rover.silence import Silent
 from roslings_rover.board import Board, Mega
 from roslings_rover.board.wire import Wire
 from roslings_rover.camera import SocketCamera, SyntheticCamera
+from roslings_rover.camera.room_camera import RoomCamera
 from roslings_rover.chip import BAUD
+from roslings_rover.rover.in_room import RoomRover
+from roslings_rover.rover.made import rover_in
 from roslings_rover.rover.rover import Rover
 
 LOOK_EVERY_S = 0.2
@@ -43,7 +46,14 @@ class RoverOptions:
     keeps_bag: bool = False
     seed: int = 0
     by_keys: bool = False
+    room: int | None = None
+    """The seed of the room that it is in; None: the course's own room."""
     more_keys: str = ""
+
+    @property
+    def wanders(self) -> bool:
+        """Whether it may drive by itself: who has the keys, or shows it a ball, leads it."""
+        return self.room is not None and not (self.by_keys or self.follows)
 
 
 @dataclass
@@ -135,6 +145,8 @@ class PartsCaption:
                 remark = "has ended"
             elif not programs.isdisjoint(each.part.programs):
                 remark = "is silent"
+            elif not crew.runs(each.part):
+                remark = remark or "rests: see --room"
             yield f"{each.part.name:8} {remark}".rstrip()
         yield from (each.line for each in self._choice.absent)
 
@@ -158,7 +170,7 @@ def assembled(
             say(each.line)
         if not built:
             raise NoPart
-        rover = Rover(seed=wish.seed)
+        rover = rover_in(wish.room, wish.seed)
         parts: list[RoverPart] = [each.chosen.part for each in built]
         board = stack.enter_context(_board(rover)) if CABLE in parts else None
         device = stack.enter_context(_camera(rover, home)) if EYES in parts else None
@@ -169,11 +181,10 @@ def assembled(
             board.name if board else "",
             str(device or ""),
             wish.follows,
+            wish.wanders,
             home / NAME if wish.keeps_bag else None,
         )
-        node = MyRover(
-            rover, by_keys=wish.by_keys, wiring=crew.wiring.robot, more_keys=wish.more_keys
-        )
+        node = node_for(rover, crew.wiring.robot, by_keys=wish.by_keys, more_keys=wish.more_keys)
         stack.enter_context(node)
         yield Assembled(node, crew, PartsCaption(node, choice, broken), board)
 
@@ -202,7 +213,8 @@ def _board(rover: Rover) -> Iterator[Board]:
 @contextmanager
 def _camera(rover: Rover, home: Path) -> Iterator[Path]:
     """What the rover sees, behind a path of its own."""
-    camera = SyntheticCamera(rover.camera_model, encoding="bgr8")
+    kind = RoomCamera if isinstance(rover, RoomRover) else SyntheticCamera
+    camera = kind(rover.camera_model, encoding="bgr8")
     path = home / "camera"
     with SocketCamera(path, lambda _: camera.look(rover)) as device:
         device.plug_in()

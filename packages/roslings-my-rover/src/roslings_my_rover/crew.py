@@ -61,6 +61,8 @@ class Crew:
     port: str = ""
     device: str = ""
     follows: bool = False
+    wanders: bool = False
+    """Whether parts run that drive by themselves."""
     bag: Path | None = None
     """A new folder for what was said; None: nothing is kept."""
     mark: str = field(default_factory=new_mark)
@@ -112,7 +114,17 @@ class Crew:
         own = {RELAY: wiring.relay} if wiring.relay else {}
         follower = {FOLLOWER: StartArguments()} if self.follows else {}
         recorder = {RECORDER: StartArguments()} if self.bag else {}
-        return {**recorder, **own, **wiring.programs, **follower}
+        programs = {n: link for n, link in wiring.programs.items() if n not in self._resting}
+        return {**recorder, **own, **programs, **follower}
+
+    @property
+    def _resting(self) -> set[str]:
+        parts = [part for part in self.parts if not self.runs(part)]
+        return {program for part in parts for program in part.programs}
+
+    def runs(self, part: RoverPart) -> bool:
+        """Whether the programs of this part are wanted now."""
+        return self.wanders or not part.only_in_rooms
 
     def _gone(self) -> Iterator[EndedPart]:
         known = {each.program for each in self.ended}

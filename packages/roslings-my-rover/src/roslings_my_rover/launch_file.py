@@ -22,6 +22,8 @@ def launch_file(choice: ChosenParts) -> str:
 def _nodes(choice: ChosenParts) -> Iterator[str]:
     programs = wired([each.part for each in choice.there], PORT, DEVICE).programs
     for each in choice.there:
+        if each.part.only_in_rooms:
+            continue
         package = each.lab.outline.package
         for name in each.part.programs:
             yield from _node(package, name, programs[name])

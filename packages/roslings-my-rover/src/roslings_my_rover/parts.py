@@ -20,6 +20,8 @@ class RoverPart:
     """What the rover does by it that it did not before."""
     holds_its_place: bool = False
     """Whether nothing takes its place when it ends: a stop that is gone is no reason to drive."""
+    only_in_rooms: bool = False
+    """Whether it drives by itself: it runs in a room of a seed alone, with nobody at the keys."""
 
 
 VOICE = RoverPart("voice", "nodes", ("minimal_publisher",), "says its status over its head")
@@ -45,7 +47,14 @@ GUARD = RoverPart(
     "stops when the button is pressed",
     holds_its_place=True,
 )
-PARTS = (VOICE, SONAR, PACE, PILOT, CABLE, EYES, LIMITER, GUARD)
+WANDERER = RoverPart(
+    "wanderer",
+    "wander",
+    ("wander",),
+    "goes along the walls of a room that it has never seen",
+    only_in_rooms=True,
+)
+PARTS = (VOICE, SONAR, PACE, PILOT, CABLE, EYES, LIMITER, GUARD, WANDERER)
 """In the order of the days. The talker and the black box are no parts: one only chats, the other
 reads what the rover has left behind."""
 

@@ -14,6 +14,9 @@ from roslings_my_rover.silence import Silence, Silent
 from roslings_my_rover.wiring import ENTRANCE, LINKS, ODOMETRY, OWNED, STATUS, RoverWiring, Steady
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.rover.driven import DrivenRover
+from roslings_rover.rover.in_room import RoomRover
+from roslings_rover.rover.room_node import RoomNode
+from roslings_rover.rover.rover import Rover
 from roslings_rover.rover.subscriptions import LONGEST_SENTENCE, SENTENCE_LASTS_S, HeardSentence
 
 SPEED_OF_SOUND_M_S = 343.0
@@ -193,6 +196,22 @@ class MyRover(DrivenRover):
         if all(map(math.isfinite, (place.x, place.y, heading))):
             self._believed = Pose(place.x, place.y, heading)
         self._silence.hear(ODOMETRY)
+
+
+@dataclass
+class MyRoomRover(MyRover, RoomNode):
+    """The same in a room of a seed: it also tells what stands and moves there, and counts bumps."""
+
+    rover: RoomRover
+
+
+def node_for(
+    rover: Rover, wiring: RoverWiring, *, by_keys: bool = False, more_keys: str = ""
+) -> MyRover:
+    """The node of a rover of parts, where it is."""
+    if isinstance(rover, RoomRover):
+        return MyRoomRover(rover, by_keys=by_keys, wiring=wiring, more_keys=more_keys)
+    return MyRover(rover, by_keys=by_keys, wiring=wiring, more_keys=more_keys)
 
 
 def _listed(names: Iterable[str]) -> str:

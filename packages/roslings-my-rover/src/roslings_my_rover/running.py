@@ -27,15 +27,19 @@ def run(
     follows: bool,
     seed: int = 0,
     keeps_bag: bool = False,
+    room: int | None = None,
 ) -> Rover:
     """Run it until Ctrl-C; returns the rover as it then is. With `keeps_bag`, see `drive_bag`.
+
+    `room` is the seed of a room that it is in. There a part may drive by itself, unless somebody
+    has the keys.
 
     Raises RoverInCell, NotOurBag, NoPart where there is nothing to carry, NoTerminal, NoWindow, and
     what a board, a camera or a build raises.
     """
     if keeps_bag:
         require_place()
-    wish = RoverOptions(follows, keeps_bag, seed, keys, TOLD)
+    wish = RoverOptions(follows, keeps_bag, seed, keys, room, TOLD)
     with ExitStack() as stack:
         stack.enter_context(rover_of_terminal())
         made = stack.enter_context(_told(choice, wish))
@@ -44,6 +48,8 @@ def run(
         with started(made), opened(view, made.node) as display:
             _go_on(made, display, asked, look)
         print(f"\nYour rover is at {position(made.node)}.\nIt went {made.node.rover.way_m:.2f} m.")
+        for name, count in made.node.counted.items():
+            print(f"{name.capitalize()}: {count}.")
         for ended in made.crew.ended:
             print(ended.line)
         if made.crew.bag:

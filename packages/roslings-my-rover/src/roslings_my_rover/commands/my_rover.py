@@ -6,6 +6,7 @@ import argparse
 import sys
 
 from ros2_on_pip.errors import OK, WRONG_USE
+from roslings_rover.commands.rover import typed_seed
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -39,6 +40,13 @@ def add_options(word: argparse.ArgumentParser) -> None:
         "--follow", action="store_true", help="follow the ball, by what day 7 says on /ball"
     )
     word.add_argument(
+        "--room",
+        metavar="SEED",
+        type=typed_seed,
+        help="in a room that it has not seen, as `rover --room`: your part of day 11 drives it"
+        " there, as long as nobody has the keys",
+    )
+    word.add_argument(
         "--race",
         action="store_true",
         help="a race of two rovers in one room, /red and /blue, started by your launch file of"
@@ -67,7 +75,8 @@ def run(options: argparse.Namespace) -> int:
     """Run the rover of the student's parts until Ctrl-C; or say which there are."""
     from roslings_my_rover.chosen import NoPart, chosen, told
 
-    if options.race and (options.keys or options.follow or options.bag or options.launch):
+    alone = (options.keys, options.follow, options.bag, options.launch, options.room is not None)
+    if options.race and any(alone):
         print(
             "roslings: --race goes with DAY, --borrow, --src, --view and --seed alone.",
             file=sys.stderr,
@@ -96,5 +105,13 @@ def run(options: argparse.Namespace) -> int:
 
         run_race(choice, options.view, options.seed)
         return OK
-    run_rover(choice, options.view, options.keys, options.follow, options.seed, options.bag)
+    run_rover(
+        choice,
+        options.view,
+        options.keys,
+        options.follow,
+        options.seed,
+        options.bag,
+        room=options.room,
+    )
     return OK

@@ -31,7 +31,7 @@ def add_options(word: argparse.ArgumentParser) -> None:
     word.add_argument(
         "--room",
         metavar="SEED",
-        type=_seed,
+        type=typed_seed,
         help="drive in a room that you have not seen: each whole number is another one; bumps are"
         " counted",
     )
@@ -74,7 +74,7 @@ def run(options: argparse.Namespace) -> int:
     return OK
 
 
-def _seed(typed: str) -> int:
+def typed_seed(typed: str) -> int:
     """The seed of a room, as argparse reads it."""
     from roslings_rover.models.rooms import NoSeed, seed_of
 
