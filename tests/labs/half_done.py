@@ -177,6 +177,8 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "wander:LOOK": {9: ("",)},
         "wander:WAIT": {9: ("",)},
         "wander:HAS_": {9: ("",)},
+        "wander:Wander.look": {8: ("",)},
+        "wander:Wander.decide": {9: ("",)},
     },
 }
 
