@@ -181,8 +181,7 @@ def _nobody_can_tell(fault: BoundaryFault, topic: TopicContract) -> bool:
 def _of_the_graph(lab: Lab) -> Iterator[BoundaryFault]:
     """Of one program: whether such ends are free, the card says of all its nodes at once."""
     for node in lab.card.nodes[:1]:
-        yield BoundaryFault(lab, node.executable, "node", "extra_publisher")
-        yield BoundaryFault(lab, node.executable, "node", "extra_subscription")
+        yield BoundaryFault(lab, node.executable, "node", "extra_ends")
 
 
 def _of_life(lab: Lab, node: NodeContract) -> Iterator[BoundaryFault]:

@@ -605,12 +605,12 @@ def _success(fault: InjectedFault) -> Any:
 def around_nodes(fault: InjectedFault) -> None:
     """What a node is beside what it says: endpoints that nobody asked for, and its end."""
     node = importlib.import_module("rclpy.node").Node
-    if fault.operator in ("extra_publisher", "extra_subscription"):
+    if fault.operator == "extra_ends":
 
         @over(node, "__init__")
         def init(old: Any, self: Any, *words: Any, **named: Any) -> None:
             old(self, *words, **named)
-            _add_endpoint(fault, self)
+            _add_ends(fault, self)
 
     if fault.operator == "exit_code":
         atexit.register(_exit_with_code, fault)
@@ -618,12 +618,10 @@ def around_nodes(fault: InjectedFault) -> None:
         atexit.register(_wait_at_the_end, fault)
 
 
-def _add_endpoint(fault: InjectedFault, node: Any) -> None:
+def _add_ends(fault: InjectedFault, node: Any) -> None:
     kind = importlib.import_module("std_msgs.msg").String
-    if fault.operator == "extra_publisher":
-        node.create_publisher(kind, "boundary_extra", 10)
-    else:
-        node.create_subscription(kind, "boundary_extra", lambda message: None, 10)
+    node.create_publisher(kind, "boundary_said", 10)
+    node.create_subscription(kind, "boundary_heard", lambda message: None, 10)
     fault.acts()
 
 
