@@ -135,7 +135,7 @@ def test_follows(rooms: ExperimentView) -> None:
     rooms.must(follow_its_wall(WALL))
 
 
-@check(needs=["covers"])
+@check(needs=["drives"])
 def test_stops(rooms: ExperimentView) -> None:
     """It stands {STOPS.from_m:g} m before what moves into its way."""
     rooms.must(stop_before_what_moves(STOPS))
