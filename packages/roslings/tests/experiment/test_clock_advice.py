@@ -208,7 +208,10 @@ def test_no_lab_hears_a_remark_that_its_code_does_not_deserve() -> None:
         seen += sum(run.not_believed is not None for run in evidence.attempts)
         deserved = re.search(r"^\+.*sleep", package, re.MULTILINE)
         assert deserved or not any(DOES_NOT_FOLLOW in each for each in advice_on_clocks(evidence))
-    assert heard == {each.name for each in all_labs()} - {"example"}
+    labs = [each for each in all_labs() if each.name != "example"]
+    in_both = {each.name for each in labs if 'clock="auto"' in each.grader.read_text("utf-8")}
+    assert in_both <= heard
+    assert len(heard) > len(in_both) > 3
     assert seen > 15, "runs that were not believed, whatever the reason"
 
 
