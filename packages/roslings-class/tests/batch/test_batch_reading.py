@@ -21,7 +21,7 @@ HOSTILE = {
     "package.xml": (b"<!--" * 100_000, "package.xml", "The limit is 64,000 bytes"),
     "setup.cfg": (b"[a]\n" + b"y\n" * 50_000, "setup.cfg", "The limit is 64,000 bytes"),
     "colcon.pkg": (b"type: &a [1]\nname: *a", "colcon.pkg", "it says type '(list)'"),
-    "chatter/more.py": (b"x = [" + b"1," * 490_000 + b"]", "chatter/more.py", "256 MB of memory"),
+    "chatter/more.py": (b"0\n" * 490_000, "chatter/more.py", "256 MB of memory"),
     FIGURE: (PICTURE, FIGURE, "The limit is 20 million"),
 }
 
