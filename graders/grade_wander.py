@@ -131,7 +131,7 @@ def test_covers(rooms: ExperimentView) -> None:
 
 @check(needs=["drives", "side"])
 def test_follows(rooms: ExperimentView) -> None:
-    """It is {WALL.at_m:g} m from the wall on the side that {WALL.side_parameter} says."""
+    """It is {WALL.at_m:g} m from the wall; {WALL.side_parameter!r} says on which side."""
     rooms.must(follow_its_wall(WALL))
 
 
