@@ -58,19 +58,21 @@ def picture():
         return image_picture(ros.collect("/ball/image", count=1, timeout_s=60)[0])
 """
 DRIVE = """
+import math
 from roslings_learn.notebook import session
 from roslings_learn.notebook.rover_map import path_picture
-def place(odometry):
-    return odometry.pose.pose.position
+def apart_m(one, other):
+    one, other = one.pose.pose.position, other.pose.pose.position
+    return math.hypot(one.x - other.x, one.y - other.y)
 def picture():
     way = []
     with session() as ros:
         way += ros.collect("/odom", count=1, timeout_s=60)
         print("ready", flush=True)
         rests = False
-        while not (rests and way[0] != way[-1] and place(way[0]) != place(way[-1])):
+        while not (rests and apart_m(way[0], way[-1]) > 0.2):
             more = ros.collect("/odom", count=10, timeout_s=60)
-            rests = place(more[0]) == place(more[-1])
+            rests = apart_m(more[0], more[-1]) < 0.002
             way += more
     return path_picture(way)
 """
