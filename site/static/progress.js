@@ -53,16 +53,16 @@
   // --- reading and writing ----------------------------------------------------------------------
 
   function read() {
-    let text = null;
+    let kept = null;
     try {
-      text = localStorage.getItem(KEY);
+      kept = localStorage.getItem(KEY);
     } catch {
       return inMemory || empty();
     }
-    if (text === null) return inMemory || empty();
-    const found = check(text);
+    if (kept === null) return inMemory || empty();
+    const found = check(kept);
     if (found.progress) return found.progress;
-    localStorage.setItem(`${KEY}.damaged`, text); // nothing is thrown away
+    localStorage.setItem(`${KEY}.damaged`, kept); // nothing is thrown away
     return empty();
   }
 
@@ -172,9 +172,9 @@
 
   // --- files ------------------------------------------------------------------------------------
 
-  // Read the text of a progress file. Gives { progress } or { problem }, a sentence for the student.
-  function check(text) {
-    const value = parsed(text);
+  // Read what a progress file holds. Gives { progress } or { problem }, a sentence for the student.
+  function check(content) {
+    const value = parsed(content);
     if (!isRecord(value)) return { problem: text("script.file.not_json", "This file is not complete JSON.") };
     if (value.roslings !== "progress") {
       return { problem: text("script.file.other", "This is not a progress file of roslings.") };
@@ -197,10 +197,10 @@
     return { progress };
   }
 
-  function parsed(text) {
-    if (text.length > LARGEST_FILE_BYTES) return null;
+  function parsed(content) {
+    if (content.length > LARGEST_FILE_BYTES) return null;
     try {
-      return JSON.parse(text);
+      return JSON.parse(content);
     } catch {
       return null;
     }
@@ -237,8 +237,8 @@
   }
 
   // Read a verdict of `./roslings check LAB --json FILE`. Gives { lab, outcome, score } or { problem }.
-  function readVerdict(text) {
-    const value = parsed(text);
+  function readVerdict(content) {
+    const value = parsed(content);
     const isVerdict =
       isRecord(value) && value.schema === 1 && typeof value.lab === "string" && ID.test(value.lab) &&
       ["pass", "fail", "inconclusive"].includes(value.outcome) && Array.isArray(value.checks);
@@ -249,9 +249,9 @@
     return { lab: value.lab, outcome: value.outcome, score: Number(value.score) || 0 };
   }
 
-  function save(name, text, type) {
+  function save(name, content, type) {
     const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([text], { type }));
+    link.href = URL.createObjectURL(new Blob([content], { type }));
     link.download = name;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
