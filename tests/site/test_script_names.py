@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -24,9 +25,9 @@ def hidden(script: str) -> set[str]:
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.name)
-def test_no_value_hides_a_function(script: object) -> None:
+def test_no_value_hides_a_function(script: Path) -> None:
     """`text(...)` in a function whose parameter is `text` is no call of ours."""
-    assert hidden(root().joinpath("site/static", str(script)).read_text("utf-8")) == set()
+    assert hidden(script.read_text("utf-8")) == set()
 
 
 @pytest.mark.parametrize(

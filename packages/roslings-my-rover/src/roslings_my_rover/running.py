@@ -16,7 +16,7 @@ from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.map_display import Display, View, shown_until
 from roslings_rover.rover.one_rover import rover_of_terminal
 from roslings_rover.rover.rover import Rover
-from roslings_rover.rover.words import position
+from roslings_rover.rover.words import at_its_end
 from roslings_rover.stop_signal import listening
 
 
@@ -47,9 +47,7 @@ def run(
         asked = stack.enter_context(listening())
         with started(made), opened(view, made.node) as display:
             _go_on(made, display, asked, look)
-        print(f"\nYour rover is at {position(made.node)}.\nIt went {made.node.rover.way_m:.2f} m.")
-        for name, count in made.node.counted.items():
-            print(f"{name.capitalize()}: {count}.")
+        print("", *at_its_end(made.node, "Your"), sep="\n")
         for ended in made.crew.ended:
             print(ended.line)
         if made.crew.bag:

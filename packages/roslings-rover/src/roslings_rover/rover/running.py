@@ -16,7 +16,7 @@ from roslings_rover.rover.map_display import Display, View, shown_until
 from roslings_rover.rover.one_rover import rover_of_terminal
 from roslings_rover.rover.room_node import node_for
 from roslings_rover.rover.rover import Rover
-from roslings_rover.rover.words import position
+from roslings_rover.rover.words import at_its_end
 from roslings_rover.stop_signal import listening
 
 REMEMBERED = "It is written down. End the rover with Ctrl-C; ./roslings says what is next."
@@ -52,9 +52,7 @@ def run(
     with rover_of_terminal(), driving(keys) as look, node, listening() as asked:
         with opened(view, node) as display:
             _go_on(node, display, asked, look)
-        print(f"\nThe rover is at {position(node)}.\nIt went {node.rover.way_m:.2f} m.")
-        for name, count in node.counted.items():
-            print(f"{name.capitalize()}: {count}.")
+        print("", *at_its_end(node, "The"), sep="\n")
         if picture:
             _save(node.rover, picture)
     return node.rover

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Iterator
 
 from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.node import RoverNode
@@ -105,6 +106,14 @@ def news(node: DrivenRover) -> list[str]:
     if node.reached:
         return [f"The rover touches the {node.reached.colour} ball. Well done!", node.next_step]
     return []
+
+
+def at_its_end(node: DrivenRover, whose: str) -> Iterator[str]:
+    """What is said after Ctrl-C: where it is, how far it went, and what was counted."""
+    yield f"{whose} rover is at {position(node)}."
+    yield f"It went {node.rover.way_m:.2f} m."
+    for name, count in node.counted.items():
+        yield f"{name.capitalize()}: {count}."
 
 
 def position(node: RoverNode) -> str:

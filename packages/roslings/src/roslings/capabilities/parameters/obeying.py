@@ -13,7 +13,7 @@ from roslings.capabilities.parameters.contract import ParameterContract, Paramet
 from roslings.capabilities.parameters.demands import has_parameter
 from roslings.capabilities.parameters.reasons import ParametersUnknown
 from roslings.capabilities.parameters.record import ParametersSeen, ParameterTrial, Values
-from roslings.capabilities.topics.relay import RelayedValue, RelayTurn, turns
+from roslings.capabilities.topics.relay import NOT_FINITE, RelayedValue, RelayTurn, turns
 from roslings.course import NodeContract, TopicContract
 from roslings.course.contract import Plain, as_typed
 from roslings.judge.demands import require_its_time, require_steady
@@ -27,7 +27,6 @@ from roslings.seen.matching import nearest_endpoint
 TYPES: Mapping[type, str] = {bool: "bool", int: "integer", float: "double", str: "string"}
 FIRST = "first"
 """The part of an experiment before anything was set."""
-NOT_FINITE = ("NaN", "Infinity", "-Infinity")
 """How evidence writes numbers that JSON has none for."""
 BESIDE_PACE = 0.15
 """So far from the asked time the time of some messages may be, as a part of it."""

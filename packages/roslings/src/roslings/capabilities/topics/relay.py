@@ -31,6 +31,7 @@ from roslings.seen.matching import nearest_endpoint
 
 FRESH_S = 1.0
 NOT_FINITE = ("NaN", "Infinity", "-Infinity")
+"""What stands in kept evidence for numbers that JSON has not."""
 LONGEST_PAUSE_S = 0.1
 
 Wanted = Callable[[int, Fields], Plain | None]
