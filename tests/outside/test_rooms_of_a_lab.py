@@ -9,6 +9,8 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +19,10 @@ import pytest
 
 from roslings.capabilities.rooms.record import RoomDriveSeen, RoomsSeen
 from roslings.capabilities.rooms.seeds import OWN, SECRET
+from roslings_class.gradebook import Gradebook, gradebook
+from roslings_class.grading import unpacked
+from roslings_class.result import GradingResult
+from roslings_class.signed_gradebook import take_key
 from until_told import Checked, checked
 
 pytestmark = pytest.mark.slow
@@ -132,3 +138,40 @@ def test_who_ends_in_a_room_is_told_with_its_last_words(tmp_path: Path) -> None:
     drives = ended.outcome("drives")
     assert (drives["outcome"], drives["fault"]) == ("fail", "EndsInARoom")
     assert any("ValueError: there is no quay" in line for line in drives["log"])
+
+
+def test_each_of_a_class_drives_in_rooms_of_its_own(tmp_path: Path) -> None:
+    """With --rooms each; a second command drives what was handed in since by the same secret."""
+    hand_ins, book = tmp_path / "hand-ins", tmp_path / "grades"
+    for name in ("anna", "ben"):
+        shutil.copytree(SOLUTION, hand_ins / name / "pilotage")
+    words = ["grade", "pilot", str(hand_ins), "--out", str(book), "--soak", "0"]
+    first = graded([*words, "--rooms", "each"], book)
+    assert first.keys() == {"anna", "ben"}
+    assert first["anna"] != first["ben"]
+    shutil.copytree(SOLUTION, hand_ins / "cleo/pilotage")
+    second = graded(words, book)
+    assert {name: second[name] for name in first} == first
+    assert len({*second.values()}) == 3
+
+
+def graded(words: list[str], book: Path) -> dict[str, tuple[int, ...]]:
+    """The secret rooms that each hand-in has driven in; all of them have full marks."""
+    environment = {**os.environ, "ROSLINGS_COURSE": str(COURSE)}
+    environment.pop(SECRET, None)
+    command = [sys.executable, "-m", "roslings", *words]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    with gradebook(book, "pilot") as kept:
+        take_key(kept, book)
+        return {name: secret_seeds(kept, result) for name, result in kept.latest().items()}
+
+
+def secret_seeds(kept: Gradebook, result: GradingResult) -> tuple[int, ...]:
+    """As the evidence has them."""
+    assert result.verdict is not None
+    assert result.verdict.score == 100
+    content = kept.evidence(result)
+    assert content is not None
+    drives = unpacked(content).experiments["secret"].part(RoomsSeen).drives
+    return tuple(drive.seed for drive in drives)

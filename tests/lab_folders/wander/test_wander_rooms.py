@@ -2,45 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
+from random import sample
 
 import pytest
-from builtin_interfaces.msg import Time
 from designs import Rule, Waiting, bang_bang, vector_field
-from sensor_msgs.msg import LaserScan
+from driving import ROOMS, driven, failed, view_of
+from fair_rooms import unfair_to
 
 from graders.wander.act import rooms_to_drive
-from roslings.capabilities.rooms import demands
-from roslings.capabilities.rooms.contract import RoomWords
-from roslings.capabilities.rooms.record import RoomDriveSeen, RoomsSeen
-from roslings.capabilities.rooms.recorded import recorded
-from roslings.capabilities.rooms.seeds import OWN, SECRET, RoomToDrive
+from graders.wander.fair import FAIR
+from roslings.capabilities.rooms.record import RoomsSeen
+from roslings.capabilities.rooms.seeds import OWN, SECRET, BadRooms
 from roslings.capabilities.rooms.seen import encounters
-from roslings.course import lab
-from roslings.course.files import written
-from roslings.evidence import ExperimentSeen
-from roslings.judge import ExperimentView, Fault
-from roslings.judge.faults import NothingToJudge
-from roslings.judge.views import Demand
-from roslings.lockstep.driven_rover import NS_PER_S, DrivenRoomRover, RoomPlan
-from roslings.lockstep.record import VelocityCommand
-from roslings.lockstep.stepping import BEGINS_S
-from roslings_rover.rover.node import laser_scan
+from roslings.judge import ExperimentView
 
-WANDER = lab("wander").card.node("wander")
-ROOMS = written(WANDER.of(RoomWords).rooms, WANDER.node)
-WALL, STOPS = written(ROOMS.wall, WANDER.node), written(ROOMS.stops, WANDER.node)
-COVERS_M = written(ROOMS.covers_m, WANDER.node)
-Design = Callable[[LaserScan], tuple[float, float]]
-CHECKS: dict[str, Demand[ExperimentView]] = {
-    "drives": demands.drive_each,
-    "touches": demands.touch_at_most(0),
-    "covers": demands.cover(COVERS_M),
-    "follows": demands.follow_its_wall(WALL),
-    "stops": demands.stop_before_what_moves(STOPS),
-}
-"""As the grader has them."""
 RULES: dict[str, Rule] = {"bang-bang": bang_bang, "vector field": vector_field}
 
 
@@ -51,42 +27,12 @@ def nobody_chooses(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(SECRET, raising=False)
 
 
-def driven(room: RoomToDrive, design: Design) -> RoomDriveSeen:
-    """As lockstep does it: a scan, the command for it, and time goes on."""
-    plan = RoomPlan(room=room.seed, length_s=ROOMS.drives_s, noise_seed=room.seed)
-    rover = DrivenRoomRover(plan, BEGINS_S * NS_PER_S)
-    for _ in range(plan.tick_count):
-        heard: tuple[VelocityCommand, ...] = ()
-        if rover.scans_now:
-            seconds, rest_ns = divmod(rover.now_ns, NS_PER_S)
-            forward, turn = design(laser_scan(rover.rover, Time(sec=seconds, nanosec=rest_ns)))
-            heard = (VelocityCommand(forward_m_s=forward, turn_rad_s=turn),)
-            rover.obey(heard)
-        rover.step()
-        rover.end_tick(heard)
-    return recorded(room, rover.record("done", "", wall_s=1.0), "lockstep")
-
-
 def seen(rule: Rule, side: str = "") -> ExperimentView:
     """It drives in each room, along the wall that is asked for, or always along one side."""
     drives = [
         driven(room, Waiting(rule, side or room.side)) for room in rooms_to_drive(ROOMS, seed=1)
     ]
-    parts = {"rooms": RoomsSeen(drives=drives)}
-    return ExperimentView(ExperimentSeen(name="rooms", clock="wall", parts=parts))
-
-
-def failed(view: ExperimentView) -> dict[str, str]:
-    """Each check that fails, with its fault."""
-    found = {}
-    for name, demand in CHECKS.items():
-        try:
-            demand(view)
-        except Fault as fault:
-            found[name] = type(fault).__name__
-        except NothingToJudge:
-            continue
-    return found
+    return view_of(drives)
 
 
 # --- which rooms -------------------------------------------------------------------------------
@@ -115,6 +61,29 @@ def test_an_instructors_rooms_are_the_same_for_all(monkeypatch: pytest.MonkeyPat
     assert not any(room.chosen for room in rooms)
 
 
+def test_more_rooms_than_a_check_drives_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And not left aside in silence."""
+    monkeypatch.setenv(OWN, "7 8 9 10")
+    with pytest.raises(BadRooms, match=r"4 rooms\. A check drives 3 at most"):
+        rooms_to_drive(ROOMS, seed=1)
+
+
+def test_secret_rooms_are_fair_and_each_another_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a hundred secrets, no two have the same five, and each fair room is drawn some time."""
+    drawn = []
+    for secret in range(100):
+        monkeypatch.setenv(SECRET, str(secret))
+        drawn.append(frozenset(room.seed for room in rooms_to_drive(ROOMS, seed=1)))
+    assert {len(each) for each in drawn} == {ROOMS.secret}
+    assert len({*drawn}) == len(drawn)
+    assert len(frozenset().union(*drawn) & {*FAIR}) > len(FAIR) * 0.8
+
+
+def test_no_room_is_twice_among_the_fair() -> None:
+    """It would be drawn twice as often."""
+    assert len({*FAIR}) == len(FAIR)
+
+
 # --- designs -----------------------------------------------------------------------------------
 
 
@@ -140,3 +109,11 @@ def test_who_stands_covers_nothing() -> None:
 
 def _turns(turn_rad_s: float, _: dict[int, float]) -> tuple[float, float]:
     return 0.0, turn_rad_s
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", range(3))
+def test_a_fair_room_is_fair(number: int) -> None:
+    """Three designs have all points in it, along either wall: other rooms at each run."""
+    (seed,) = sample(FAIR, 1)
+    assert [*unfair_to(seed)] == [], f"{number}: room {seed}"

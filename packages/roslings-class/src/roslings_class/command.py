@@ -40,6 +40,7 @@ from roslings_class.messages import (
 from roslings_class.moodle_worksheet import read_worksheet
 from roslings_class.own_cards import NoList, OneMachine, OwnCards, own_cards
 from roslings_class.result import GradingResult
+from roslings_class.room_secret import Whose, insist_on_rooms, room_secret
 from roslings_class.roster import insist_on_owners, read_roster
 from roslings_class.scheduler import BatchProgress, GradingRequest, Scheduler
 from roslings_class.signed_gradebook import take_key
@@ -99,6 +100,8 @@ class GradeOptions:
     """Whether each student is graded by a card of their own."""
     explain: bool = False
     """Whether questions are made about each hand-in that passes."""
+    rooms: Whose | None = None
+    """Whether all drive in the same secret rooms, or each in others; None: as kept, or the same."""
 
 
 @dataclass(frozen=True)
@@ -113,10 +116,11 @@ class Report:
 def grade(choices: GradeOptions) -> Report:
     """Grade all submissions, or go on where an earlier run was ended.
 
-    Raises BatchError, CourseError, and what the gradebook's disk refuses.
+    Raises BatchError, CourseError (LabHasNoRooms, too), and what the gradebook's disk refuses.
     """
     lab = course.lab(choices.lab, choices.hidden)
     _ = lab.card, lab.hints  # a mistake in the course is told before anything is run
+    insist_on_rooms(lab, choices.rooms)
     students = read_roster(choices.roster) if choices.roster else ()
     if choices.variants:
         _insist_on_owners_of_cards(choices, lab)
@@ -269,6 +273,7 @@ def _grade_all(
             limits=GradingLimits(choices.limit_s),
             soak_s=soak_s,
             cards=_cards(choices, submissions, scratch / "cards"),
+            rooms=room_secret(course.lab(choices.lab), book, choices.rooms),
         )
         teller = ProgressTeller(progress)
         if choices.dask is None:

@@ -15,6 +15,7 @@ from pydantic import BaseModel
 
 from roslings import course
 from roslings.arena import NoFreeDomain, NoFreeUser
+from roslings.capabilities.rooms.seeds import SECRET
 from roslings.course import Lab
 from roslings.evidence import Evidence, PackageSeen, read_json, thin_json
 from roslings.experiment import MeasuringFailed, MeasuringOptions, measure
@@ -57,6 +58,8 @@ def main(order: GradingOrder) -> None:
     signal.signal(signal.SIGTERM, _stop)
     if order.course:
         os.environ["ROSLINGS_COURSE"] = str(order.course)
+    if order.room_secret:
+        os.environ[SECRET] = order.room_secret
     answer(order)
 
 

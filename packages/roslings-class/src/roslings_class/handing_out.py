@@ -97,8 +97,7 @@ def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
     regrading = last_regrading(book)
     if regrading:
         write_changes(regrading, found.grades, folder / FILE)
-    common = fingerprint(lab.starter).marks
-    write_class_page(lab, found, common, folder / "class.html", regrading)
+    write_class_page(lab, found, _given_marks(lab), folder / "class.html", regrading)
     back = [f"To upload as Moodle's worksheet: {from_here(folder)}/moodle.csv"] if worksheet else []
     return [
         *cards,
@@ -108,6 +107,11 @@ def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
         *feedback.write(found),
         f"The class on one page: {from_here(folder)}/class.html",
     ]
+
+
+def _given_marks(lab: Lab) -> frozenset[str]:
+    """Of what everybody began with; nothing, where a lab gives nothing."""
+    return fingerprint(lab.starter).marks if lab.starter.is_dir() else frozenset()
 
 
 def _cards(courses: Courses, students: Sequence[Student], folder: Path) -> list[str]:

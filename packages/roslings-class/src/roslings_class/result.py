@@ -45,6 +45,8 @@ class GradingOrder(BaseModel):
     """How long its nodes are left running besides; 0: not at all."""
     strangers: bool = False
     """Somebody else's, and not trusted: the wall for strangers' code is taken."""
+    room_secret: str = ""
+    """What its rooms are drawn from; empty where it drives in none, or in the lab's own."""
 
     @property
     def handed_in_as(self) -> str:

@@ -15,6 +15,7 @@ from roslings_class.capacity import Capacity
 from roslings_class.gradebook import Gradebook
 from roslings_class.own_cards import OwnCards
 from roslings_class.result import GradingOrder, GradingResult
+from roslings_class.room_secret import RoomSecret
 from roslings_class.submissions import Submission, digest_of
 from roslings_class.worker_pool import GRADING, EndedGrading, GradingLimits, worker_pool
 
@@ -41,6 +42,8 @@ class GradingRequest:
     """What each process does: MODULE:FUNCTION."""
     cards: OwnCards | None = None
     """Each student's own card; None: everybody has the same."""
+    rooms: RoomSecret | None = None
+    """What rooms are drawn from; None: no secret ones."""
 
     def words(self, submission: Submission) -> dict[str, Plain]:
         """What is the student's own in the card that it is graded by."""
@@ -66,6 +69,7 @@ class GradingRequest:
                 "strangers": self.strangers,
                 "soak_s": self.soak_s,
                 "words": self.words(submission),
+                "room_secret": self.rooms.of(submission.name) if self.rooms else "",
                 **self._by_own_card(submission),
             }
         )

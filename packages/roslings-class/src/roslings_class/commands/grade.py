@@ -63,6 +63,12 @@ def add_options(word: argparse.ArgumentParser) -> None:
         help="each student has a card of their own (start LAB --for NAME); needs --roster",
     )
     word.add_argument(
+        "--rooms",
+        choices=("same", "each"),
+        help="in a lab that drives in rooms: secret ones, the same for all (default), or for each"
+        " student others",
+    )
+    word.add_argument(
         "--explain",
         action="store_true",
         help="make three questions, with answers, about each hand-in that passes",
@@ -151,6 +157,7 @@ def run(options: argparse.Namespace) -> int:
         extensions=options.extensions,
         times=tuple(options.times),
         explain=options.explain,
+        rooms=options.rooms,
     )
     try:
         report = grade(choices)

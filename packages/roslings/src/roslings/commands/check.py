@@ -80,6 +80,12 @@ def add_options(word: argparse.ArgumentParser) -> None:
         help="use the real board on this serial port, for example /dev/ttyACM0",
     )
     word.add_argument(
+        "--room",
+        metavar="SEED",
+        action="append",
+        help="drive in this room, in a lab that drives in rooms; may be given up to three times",
+    )
+    word.add_argument(
         "--timings", action="store_true", help="show where the seconds of the check went"
     )
     word.add_argument(
@@ -147,6 +153,7 @@ def _check_package(lab: Lab, package: Path, options: argparse.Namespace) -> int:
     elif line := told_of_no_wall(package, options):
         print(line, file=sys.stderr)
     _try_port(lab, options.port)
+    _choose_rooms(lab, options.room)
     with place_for_bags(options.evidence, package) as bags:
         seed = any_seed() if options.seed is None else options.seed
         choices = MeasuringOptions(
@@ -205,6 +212,14 @@ def _solution(lab: Lab) -> Path:
     if not lab.solution.is_dir():
         raise NoSolution(lab.name)
     return lab.solution
+
+
+def _choose_rooms(lab: Lab, seeds: list[str] | None) -> None:
+    """Those that are asked for are looked at before anything is built."""
+    if seeds:
+        from roslings.capabilities.rooms.chosen import choose_rooms
+
+        choose_rooms(lab, seeds)
 
 
 def _try_port(lab: Lab, port: Path | None) -> None:

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
+from random import Random
 
 from roslings.capabilities.rooms.contract import RoomsContract
 from roslings.capabilities.rooms.record import Side
@@ -33,22 +34,32 @@ class RoomToDrive:
 
 
 def own_rooms(contract: RoomsContract) -> list[RoomToDrive]:
-    """As many as the card has, by the student's choice where there is one. Raises BadRooms."""
+    """The card's, or those of the student's choice, no more than these. Raises BadRooms."""
     words = os.environ.get(OWN, "").split()
     try:
         seeds = tuple(map(seed_of, words)) or contract.own
     except NoSeed as error:
         raise BadRooms(f"{OWN}: {error}") from None
-    return [*_with_sides(seeds[: len(contract.own)], chosen=True)]
+    if len(seeds) > len(contract.own):
+        raise BadRooms(f"{OWN}: {len(seeds)} rooms. A check drives {len(contract.own)} at most.")
+    return [*_with_sides(seeds, chosen=True)]
 
 
-def secret_rooms(contract: RoomsContract, secret: int | str) -> list[RoomToDrive]:
+def secret_rooms(
+    contract: RoomsContract, secret: int | str, among: Sequence[int] = ()
+) -> list[RoomToDrive]:
     """As many as the card says: of the instructor's secret where there is one, else of this one.
+
+    `among` are the rooms that may be taken, each one once; without it, each number is a room.
+    Raises ValueError where there are too few.
 
     >>> secret_rooms(ROOMS, scene.seed)
     """
     base = os.environ.get(SECRET) or str(secret)
-    seeds = [_number(f"room {each} of {base}") for each in range(contract.secret)]
+    if among:
+        seeds = Random(_number(f"rooms of {base}")).sample(among, contract.secret)
+    else:
+        seeds = [_number(f"room {each} of {base}") for each in range(contract.secret)]
     return [*_with_sides(seeds, chosen=False)]
 
 
