@@ -109,7 +109,7 @@ def hand_out(book: Gradebook, lab: Lab, folder: Path) -> list[str]:
     ]
 
 
-def _given_marks(lab: Lab) -> frozenset[str]:
+def _given_marks(lab: Lab) -> frozenset[int]:
     """Of what everybody began with; nothing, where a lab gives nothing."""
     return fingerprint(lab.starter).marks if lab.starter.is_dir() else frozenset()
 
