@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import types
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -113,7 +114,7 @@ class Collector:
         words: dict[str, Any] = {
             "id": name,
             "title": title_of(_function(item)),
-            "points": worth if error is None else 0.0,
+            "points": _points(worth, error),
             "max_points": worth,
             "lesson": self._lab.lesson_of(name),
             "hidden": name in self._lab.hidden_checks,
@@ -132,6 +133,14 @@ class Collector:
             mistake = nothing_called(error.argname, _function(item), self._there)
             return words_for_mistake(mistake)
         return words_for(error, title_of(_function(item)), self._lab.graders)
+
+
+def _points(worth: float, error: BaseException | None) -> float:
+    """All of them, or what a fault leaves: whole points, and never all."""
+    if error is None:
+        return worth
+    share = error.earned if isinstance(error, Fault) else 0.0
+    return max(0.0, min(float(math.floor(worth * share)), worth - 1))
 
 
 def steps_of(lab: str, check: str, english: Sequence[str]) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from room_drives import AWAY, NEAR, beside, bump, drive, seen, straight, thing, 
 from roslings.capabilities.rooms import demands, faults, reasons
 from roslings.capabilities.rooms.contract import StopBeforeContract, WallContract
 from roslings.capabilities.rooms.record import RoomDriveSeen, RoomSleeper, WhyWall
+from roslings.capabilities.rooms.seen import covered_m
 from roslings.evidence import LogLine, ProcessSeen
 from roslings.judge import ExperimentView, Fault, Inconclusive, NothingToJudge
 from roslings.judge.remarks import begin_remarks, remarks
@@ -321,3 +322,48 @@ def test_of_lockstep_nothing_is_told() -> None:
     begin_remarks()
     demands.drive_each(seen(ALL_WELL))
     assert remarks() is None
+
+
+# --- a share of the points ---------------------------------------------------------------------
+
+
+def earned(demand: Demand, *drives: RoomDriveSeen) -> float:
+    """The share that is left of a check that fails."""
+    with pytest.raises(Fault) as fault:
+        demand(seen(*drives))
+    return fault.value.earned
+
+
+SHARES = {
+    "one of three rooms is silent": (
+        demands.drive_each,
+        [ALL_WELL, drive(straight(20, 0.0, **STILL)), ALL_WELL],
+        2 / 3,
+    ),
+    "one bump": (TOUCHES, [drive(straight(50), bumps=[bump(1.0)])], 0.5),
+    "many bumps": (TOUCHES, [drive(straight(50), bumps=[bump(1.0)] * 9)], 0.0),
+    "one bump in one of two rooms": (
+        TOUCHES,
+        [ALL_WELL, drive(straight(9), bumps=[bump(1.0)])],
+        0.75,
+    ),
+    "twice as far off as allowed": (FOLLOWS, [off_by(*[0.2] * 50)], 0.5),
+    "three times as far": (FOLLOWS, [off_by(*[0.1, *[0.31] * 50])], 0.0),
+    "no wall in one of two rooms": (FOLLOWS, [ALL_WELL, drive(beside(3.0, *[3.0] * 50))], 0.5),
+    "stands before one of two": (MEETS, [stands_at(0.3), comes_as_near_as(0.05)], 0.5),
+}
+
+
+@pytest.mark.parametrize(("demand", "drives", "share"), SHARES.values(), ids=SHARES)
+def test_what_is_half_right_keeps_a_share(
+    demand: Demand, drives: list[RoomDriveSeen], share: float
+) -> None:
+    """Whoever does well in two of three rooms is no beginner any more."""
+    assert earned(demand, *drives) == pytest.approx(share, abs=0.03)
+
+
+def test_half_of_the_ground_is_half_of_the_points() -> None:
+    """The way over new ground, of the way that is asked for."""
+    assert earned(demands.cover(4.0), drive(straight(200))) == pytest.approx(
+        covered_m(drive(straight(200))) / 4.0, abs=0.01
+    )

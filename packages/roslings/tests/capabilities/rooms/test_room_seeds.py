@@ -57,7 +57,8 @@ def test_a_student_chooses(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(OWN, " 4  8 ")
     assert seeds_of(own_rooms(ROOMS)) == [4, 8]
     monkeypatch.setenv(OWN, "9 8 7 6 5")
-    assert seeds_of(own_rooms(ROOMS)) == [9, 8, 7]
+    with pytest.raises(BadRooms, match=r"5 rooms\. A check drives 3 at most"):
+        own_rooms(ROOMS)
     monkeypatch.setenv(OWN, " ")
     assert seeds_of(own_rooms(ROOMS)) == [17, 3, 1]
 
@@ -151,3 +152,13 @@ def test_a_task_tells_what_is_asked() -> None:
     assert "off by 0.1 m in the mean, and by 0.25 m in 95 of 100" in told["follows a wall"]
     assert told["stops"] == "0.1 m before something that moves into its way"
     assert told["goes"] == "2 m of new ground in each room, at least"
+
+
+def test_secret_rooms_are_drawn_among_those_that_are_fair() -> None:
+    """Each once, and by the secret alone."""
+    drawn = secret_rooms(ROOMS, "quay", range(100, 120))
+    assert {*seeds_of(drawn)} <= {*range(100, 120)}
+    assert len({*seeds_of(drawn)}) == ROOMS.secret
+    assert drawn == secret_rooms(ROOMS, "quay", range(100, 120))
+    assert drawn != secret_rooms(ROOMS, "harbour", range(100, 120))
+    assert {room.side for room in drawn} == {"left", "right"}

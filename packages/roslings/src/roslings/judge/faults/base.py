@@ -28,6 +28,8 @@ class Fault(Told, Exception):
     """What is wrong was seen, not missed: it stands even where other evidence was dropped."""
     blocks: ClassVar[bool] = True
     """Nothing can be said by the checks that need this one."""
+    earned = 0.0
+    """The share of the check's points that is given all the same: below 1. A demand sets it."""
     UNTOLD: ClassVar[tuple[str, ...]] = ("log",)
     """Fields that no verdict has among its fields: it has the log beside them, and a student may
     have to find out the others."""
