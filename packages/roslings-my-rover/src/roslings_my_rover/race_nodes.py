@@ -62,6 +62,9 @@ class RacingRover(DrivenRover):
         self._executor.remove_node(self._node)
         self._node.destroy_node()
 
+    def _open_frames(self) -> None:
+        """Two rovers would speak on one /tf."""
+
     def _open_topics(self) -> None:
         super()._open_topics()
         from std_msgs.msg import String

@@ -22,6 +22,18 @@ OPTICAL = (-0.5, 0.5, -0.5, 0.5)
 
 
 @dataclass(frozen=True)
+class FrameOptions:
+    """What a rover says of its frames, and how well it knows its own place."""
+
+    published: bool = True
+    """On /tf and /tf_static, where their type is there."""
+    drift_percent: float = 0.0
+    """How much too long its odometry counts each metre and each turn."""
+    map_frame: bool = False
+    """It also says where `odom` is in `map`: there the rover is where it truly is."""
+
+
+@dataclass(frozen=True)
 class FramePublishers:
     """Says where the frames are: what never moves once, on a topic that keeps it."""
 
@@ -29,6 +41,11 @@ class FramePublishers:
     fixed: Any
     """Kept as long as the frames are said: who comes later asks this publisher."""
     map_frame: bool
+
+    def close(self, node: Any) -> None:
+        """Nothing is said any more, and who comes late hears nothing of it."""
+        for publisher in (self.moving, self.fixed):
+            node.destroy_publisher(publisher)
 
     def say(self, truth: Pose, believed: Pose, stamp: Any) -> None:
         """The steps that move; `believed` is where /odom says that the rover is."""

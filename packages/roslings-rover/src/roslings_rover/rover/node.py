@@ -14,7 +14,12 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from roslings_rover.models.differential_drive import Motion
-from roslings_rover.rover.frames import CAMERA_FRAME, FramePublishers, frame_publishers
+from roslings_rover.rover.frames import (
+    CAMERA_FRAME,
+    FrameOptions,
+    FramePublishers,
+    frame_publishers,
+)
 from roslings_rover.rover.messages import (
     LONGEST_PAUSE_S,
     ODOM_EVERY_S,
@@ -49,23 +54,18 @@ class RoverNode:
     notice: str = ""
     """What the person at the screen should know; empty where all is well."""
     commands: int = 0
-    tf: bool = False
-    """It says its frames on /tf and /tf_static, where their type is there."""
-    drift_percent: float = 0.0
-    """How much too long its odometry counts each metre and each turn."""
-    map_frame: bool = False
-    """On /tf it also says where `odom` is in `map`: there the rover is where it truly is."""
+    frames: FrameOptions = FrameOptions()  # noqa: RUF009 - it cannot change
     by_keys: bool = False
     """The keys of this terminal drive it."""
     listens: bool = False
     """It hears what others say, too."""
-    _frames: FramePublishers | None = field(default=None, repr=False)
+    _frames: FramePublishers | None = field(default=None, init=False, repr=False)
     _told_s: float = field(default=-math.inf, repr=False)
     _subscriptions: RoverSubscriptions | None = field(default=None, repr=False)
     _parts: ExitStack = field(default_factory=ExitStack, repr=False)
 
     def __post_init__(self) -> None:
-        self.odometer = Odometer(self.rover.pose, self.drift_percent)
+        self.odometer = Odometer(self.rover.pose, self.frames.drift_percent)
         """What /odom says."""
 
     def __enter__(self) -> RoverNode:
@@ -101,7 +101,7 @@ class RoverNode:
 
     @property
     def publishes_tf(self) -> bool:
-        """The type of /tf is there, and it was asked for."""
+        """Somebody wants it, and its type is there."""
         return self._frames is not None
 
     @property
@@ -127,8 +127,16 @@ class RoverNode:
         self._scan = node.create_publisher(LaserScan, "scan", qos_profile_sensor_data)
         self._pictures = node.create_publisher(Image, "camera/image_raw", qos_profile_sensor_data)
         self._camera = SyntheticCamera(self.rover.camera_model)
-        if self.tf:
-            self._frames = frame_publishers(node, self.map_frame)
+        self._open_frames()
+
+    def _open_frames(self) -> None:
+        if self.frames.published and self._frames is None:
+            self._frames = frame_publishers(self._node, self.frames.map_frame)
+
+    def _close_frames(self) -> None:
+        if self._frames is not None:
+            self._frames.close(self._node)
+            self._frames = None
 
     def _open_timers(self) -> None:
         node = self._node
@@ -178,7 +186,7 @@ class RoverNode:
 
     def _show_picture(self) -> None:
         if self._pictures.get_subscription_count():
-            stamp = self._node.get_clock().now().to_msg()
+            stamp = self._now()
             self._pictures.publish(_image(self._camera.look(self.rover), stamp))
 
     def _look_for_twins(self) -> None:

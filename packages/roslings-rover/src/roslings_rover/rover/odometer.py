@@ -1,4 +1,4 @@
-"""Where the rover believes that it is: what its wheels have counted, with the error that they have."""
+"""Where the rover believes that it is: what its wheels have counted, errors included."""
 
 from __future__ import annotations
 
