@@ -52,7 +52,7 @@ class FramesTab:
         self._count = PageText("p", "", "count")
         self._trouble = Notice()
         frame = part("div", "scroll", role="region", tabindex=0, aria_label="The tree of frames")
-        with frame, part("table"):
+        with frame, part("table", "frames"):
             with part("thead"), part("tr"):
                 for each in COLUMNS:
                     PageText("th", each, scope="col")
