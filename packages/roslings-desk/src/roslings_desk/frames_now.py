@@ -32,7 +32,7 @@ OFF_S = 2.0
 
 
 @dataclass(frozen=True)
-class Step:
+class HeardStep:
     """One step, and when it was heard, by the monotonic clock."""
 
     came_s: float
@@ -67,17 +67,17 @@ class FramesNow:
     """Filled by what comes; asked again and again."""
 
     def __init__(self) -> None:
-        self._lately: deque[Step] = deque(maxlen=MOST_STEPS)
-        self._last: dict[str, Step] = {}
+        self._lately: deque[HeardStep] = deque(maxlen=MOST_STEPS)
+        self._last: dict[str, HeardStep] = {}
         """The last step on /tf of each frame."""
-        self._fixed: dict[tuple[str, str], Step] = {}
+        self._fixed: dict[tuple[str, str], HeardStep] = {}
         self._order: dict[str, None] = {}
         """Frames in the order in which they were told of first."""
 
     def take(self, message: Any, came_s: float, fixed: bool) -> None:
         """A message of /tf, or of /tf_static."""
         for transform in message.transforms:
-            step = Step(came_s, transform)
+            step = HeardStep(came_s, transform)
             if step.child not in self._order and len(self._order) >= MOST_FRAMES:
                 continue
             self._order.setdefault(step.child)
