@@ -1,5 +1,5 @@
 """An asker: a node called asker. Twice a second it asks where the rover is now, and
-waits for the answer. It prints "found", or "in vain" where no answer came in 0.3 s.
+waits for the answer. It prints "found", or "no answer" where none came in 0.3 s.
 
 The drill runs the rover, too. By hand, start it in another terminal: python3 driver.py
 """
@@ -20,7 +20,7 @@ class Asker(Node):
     def ask(self):
         now, wait = self.get_clock().now(), Duration(seconds=0.3)
         there = self.buffer.can_transform("odom", "base_link", now, wait)
-        print("found" if there else "in vain", flush=True)
+        print("found" if there else "no answer", flush=True)
 
 
 def main():
