@@ -158,7 +158,7 @@ def test_latched(waiting: ExperimentView) -> None:
     waiting.must(be_latched(TF_STATIC, TREE))
 
 
-@check(needs=["topics"])
+@check(needs=["topics", "parameters"])
 def test_drives(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
     """It runs on and hears on, whatever is not known yet."""
     for drive in (middle, beside, anywhere):

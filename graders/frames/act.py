@@ -45,7 +45,7 @@ from roslings.course import NodeContract, TopicContract
 from roslings.evidence import Endpoint
 from roslings.experiment.missed import hears, says
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
-from roslings.experiment.own_time import OwnTime
+from roslings.experiment.own_time import PATIENCE_S, OwnTime
 from roslings.experiment.scene import Scene
 from roslings.probe.content import message_class
 from roslings.probe.events import no_publisher_events, no_subscription_events
@@ -69,7 +69,7 @@ SETTLES_S = 1.0
 
 MAP_WITHIN_S = 3.0
 LATE_WITHIN_S, QUIET_S = 3.0, 0.3
-EXACT_DECIMALS = 6
+EXACT_DECIMALS = 4
 MOST_VALUES = 8
 WALLS_TYPE, MAP_TYPE = "geometry_msgs/msg/PolygonStamped", "nav_msgs/msg/OccupancyGrid"
 TF_TYPE = "tf2_msgs/msg/TFMessage"
@@ -241,14 +241,19 @@ class Teller:
         return True
 
     def _await(self, due_s: float) -> None:
-        while (left_s := due_s - time.monotonic()) > 0 and self._scene.arena.all_alive():
-            self._scene.until(lambda: time.monotonic() >= due_s, left_s)
+        alive = self._scene.arena.all_alive
+        self._scene.probe.until(
+            lambda: time.monotonic() >= due_s or not alive(), due_s - time.monotonic()
+        )
 
     def _keeps_up(self, passed: Callable[[], bool]) -> bool:
         """Wait until it has handled the last scan; False where one callback takes too long."""
-        own = OwnTime(self._scene.arena)
-        alive = self._scene.arena.all_alive
-        self._scene.until(lambda: passed() or own.is_past(BLOCKED_S), 30.0)
+        if passed():
+            return True
+        own, alive = OwnTime(self._scene.arena), self._scene.arena.all_alive
+        self._scene.probe.until(
+            lambda: passed() or own.is_past(BLOCKED_S) or not alive(), BLOCKED_S + PATIENCE_S
+        )
         return passed() or not alive()
 
     def _tell_place(self, told: Odometry) -> None:
@@ -325,7 +330,7 @@ def tell_of_a_drive(
     scene.seen.recording(FramesSeen).drive = seen
     seen.heard = teller.is_heard()
     if seen.heard:
-        seen.blocked = not teller.tell_all()
+        seen.blocked_s = 0.0 if teller.tell_all() else BLOCKED_S
         _await_the_rest(scene, drive, heard)
     with scene.busy():
         _write_steps(scene, heard)

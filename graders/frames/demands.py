@@ -7,7 +7,6 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 from graders.frames import faults
-from graders.frames.act import BLOCKED_S
 from graders.frames.contract import TreeContract
 from graders.frames.reasons import NoDrive
 from graders.frames.record import DriveSeen, FramesSeen, MapSeen, Part, Source, StepSeen, WallsSeen
@@ -126,9 +125,9 @@ def be_latched(topic: TopicContract, tree: TreeContract) -> Demand[ExperimentVie
 
 def hear_on(experiment: ExperimentView) -> None:
     """No callback holds the node up."""
-    if _drive(experiment).blocked:
+    if limit_s := _drive(experiment).blocked_s:
         require_steady(experiment.seen.stall_s)
-        raise faults.Blocked(BLOCKED_S)
+        raise faults.Blocked(limit_s)
 
 
 def be_a_tree(topic: TopicContract, tree: TreeContract) -> Demand[ExperimentView]:

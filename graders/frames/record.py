@@ -96,7 +96,7 @@ class DriveSeen(Record):
     laser_y_m: float
     laser_yaw_rad: float
     heard: bool = Field(default=False, description="The node has subscribed to both topics")
-    blocked: bool = Field(default=False, description="One of its callbacks took too long")
+    blocked_s: float = Field(default=0.0, description="One callback took longer than this; 0: none")
     odometry: int = Field(default=0, description="So many messages")
     told: int = Field(default=0, description="Those that /tf has a step for")
     body: Columns[BodySeen] = Field(default_factory=list)
