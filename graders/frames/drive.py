@@ -134,9 +134,7 @@ class Drive:
         """20 times a second, but not at the beginning and not at the end."""
         first, last = round(SILENT_S / ODOMETRY_EVERY_S), round(self.ends_s / ODOMETRY_EVERY_S)
         count = range(first, last - first + 1)
-        return [
-            Odometry(n * ODOMETRY_EVERY_S, self.body_at(n * ODOMETRY_EVERY_S)) for n in count
-        ]
+        return [Odometry(n * ODOMETRY_EVERY_S, self.body_at(n * ODOMETRY_EVERY_S)) for n in count]
 
     @property
     def told(self) -> list[Odometry | Scan]:

@@ -9,7 +9,6 @@ from graders.frames.record import MapSlip, WayWrong
 from roslings.judge.faults.base import Fault
 from roslings.judge.faults.sentences import SentencePart, one_of, plural
 
-
 StepSlip = Literal["swapped", "slash", "none"]
 LaserSlip = Literal["degrees", "no_turn", "other_way", "half", "place", "turn"]
 BodySlip = Literal["turn", "place"]
@@ -234,7 +233,9 @@ class NotTheScansStamp(Fault):
     topic: str
     zero: bool
     was_seen = True
-    why = "The points are what the laser saw at the time of the scan. Another time is another place."
+    why = (
+        "The points are what the laser saw at the time of the scan. Another time is another place."
+    )
     expected = "header.stamp of {topic} is that of a scan"
     measured = one_of(zero="there is no stamp: it is 0", other="no scan has this time")
     hint = "Which time stands in the header of your points?"
@@ -298,7 +299,6 @@ class OtherCount(Fault):
         return "endless" if self.endless else "more"
 
     which_hint = which_measured
-
 
 
 @dataclass(eq=False)

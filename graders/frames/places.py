@@ -20,7 +20,9 @@ EXPLAINS_M = 0.02
 OTHER_TIMES_S = [n * 0.01 for n in range(-45, 46) if n]
 
 
-def points_of(drive: Drive, scan: Scan, laser: Pose, first_beam_rad: float | None = None) -> Numbers:
+def points_of(
+    drive: Drive, scan: Scan, laser: Pose, first_beam_rad: float | None = None
+) -> Numbers:
     """The points of a scan, x and y, for a laser at this place; one row each."""
     angles = beams_rad(drive)
     if first_beam_rad is not None:

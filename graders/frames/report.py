@@ -46,7 +46,10 @@ def _figure(drive: DriveSeen, shown: str) -> Markup:
     parts = [tag("h3", title), table(title, HEAD, rows)]
     if shown:
         caption = said("page.frames.map", "the middle of the map: # wall, . free, blank unknown")
-        parts += [tag("figcaption", caption), tag("pre", shown, style="line-height: 1; font-size: 6px")]
+        parts += [
+            tag("figcaption", caption),
+            tag("pre", shown, style="line-height: 1; font-size: 6px"),
+        ]
     return tag("figure", *parts)
 
 
