@@ -49,7 +49,7 @@ class Truth:
     @property
     def reach(self) -> int:
         """Cells from (0, 0) to the edge."""
-        return self.hit.shape[0] // 2
+        return len(self.hit) // 2
 
 
 def truth_of(drive: Drive, cell_m: float) -> Truth:
@@ -99,7 +99,8 @@ def _along(scan: Scan, ends: Numbers, cell_m: float) -> Numbers:
 
 
 def _cells(points: Numbers, cell_m: float) -> Cells:
-    return np.floor(points / cell_m).astype(np.int64)
+    cells: Cells = np.floor(points / cell_m).astype(np.int64)
+    return cells
 
 
 def _count(grid: NDArray[Any], cells: Cells, reach: int) -> None:
@@ -111,9 +112,10 @@ def _grown(grid: Grid) -> Grid:
     """With all that lies beside."""
     padded = np.pad(grid, 1)
     rows, columns = grid.shape
-    return np.logical_or.reduce(
+    grown: Grid = np.logical_or.reduce(
         [padded[y : y + rows, x : x + columns] for y in range(3) for x in range(3)]
     )
+    return grown
 
 
 def measured(drive: Drive, seen: MapSeen, values: NDArray[np.int8]) -> tuple[MapSeen, str]:

@@ -116,11 +116,11 @@ class LaserElsewhere(Fault):
     expected = "{step} with {wanted}, as the parameters say"
     measured = "{found}"
     hint = one_of(
-        degrees="This turn comes out where sin and cos get degrees. In which unit are angles in ROS?",
+        degrees="sin and cos got degrees here. In which unit are angles in ROS?",
         no_turn="The turn is missing: what becomes of laser_yaw in your code?",
         other_way="The sign of the turn is the wrong one. Which way round is positive?",
-        half="The turn is half or twice of what it should be: look at both lines of the rotation.",
-        place="What becomes of laser_x and laser_y in your code? Look at each line with translation.",
+        half="The turn is half or twice as large: look at both lines of the rotation.",
+        place="What becomes of laser_x and laser_y? Look at each line with translation.",
         turn="Look at both lines with the rotation: the z and the w of a yaw.",
     )
 
@@ -312,7 +312,7 @@ class OffTheWalls(Fault):
     was_seen = True
     why = one_of(
         standing="All that a rover plans rests on these points: it drives where there are none.",
-        moving="A rover that turns with 2 rad/s has turned by 6 degrees in a twentieth of a second.",
+        moving="A rover that turns with 2 rad/s turns by 6 degrees in a twentieth of a second.",
     )
     expected = one_of(
         standing="while the rover stands, the points lie on walls: {limit_m:g} m off at most",
@@ -325,10 +325,10 @@ class OffTheWalls(Fault):
             " another time. Which time does your look-up ask for?"
         ),
         beam_angles="The directions are off by one angle. Where does the first beam look?",
-        mount="The laser is taken to be elsewhere on the rover. Which frames does the look-up name?",
+        mount="The laser is not where your points begin. Which frames does the look-up name?",
         heading="The points are not turned as the rover is. What becomes of the yaw?",
         inverse="Target and source are swapped: which of the two frames are your points in?",
-        laser_frame="These are numbers in the frame of the laser. What takes them to the other one?",
+        laser_frame="These numbers are in the frame of the laser. What takes them to the other?",
         none=(
             "Put the rover before one wall, and compare: the distance, the angle of the beam, the"
             " place of the laser, its turn."
@@ -444,7 +444,7 @@ class WallsElsewhere(Fault):
     measured = "{found:.0%} are"
     hint = one_of(
         rows_and_columns="Rows and columns are swapped. Which of x and y counts rows?",
-        cut_towards_zero="West or south of (0, 0) each wall is one cell off. What does int() do with -0.5?",
+        cut_towards_zero="West and south of (0, 0) walls are a cell off. What is int(-0.5)?",
         elsewhere="All walls are shifted alike. Is info.origin the corner of your first cell?",
         none="Log the cell of one point, and compare. Does a beam that comes later wipe it out?",
     )

@@ -23,6 +23,9 @@ PARTS = {
     "after": Text("page.frames.after", "after the last odometry"),
 }
 
+SMALL = "line-height: 1; font-size: 6px"
+"""A cell is about as wide as it is high."""
+
 
 def sections(evidence: Evidence) -> Iterator[Markup]:
     """For each drive that a node was told of."""
@@ -46,10 +49,7 @@ def _figure(drive: DriveSeen, shown: str) -> Markup:
     parts = [tag("h3", title), table(title, HEAD, rows)]
     if shown:
         caption = said("page.frames.map", "the middle of the map: # wall, . free, blank unknown")
-        parts += [
-            tag("figcaption", caption),
-            tag("pre", shown, style="line-height: 1; font-size: 6px"),
-        ]
+        parts += [tag("figcaption", caption), tag("pre", shown, style=SMALL)]
     return tag("figure", *parts)
 
 
