@@ -22,7 +22,7 @@ from roslings.probe.content import UnknownType, message_class
 from roslings.probe.probe import Probe, offering
 from roslings.seen.matching import nearest_endpoint
 from roslings_rover.rover import Box, Motion, Pose, Rover, World
-from roslings_rover.rover.node import LONGEST_PAUSE_S, ODOM_EVERY_S, STEP_S, odometry
+from roslings_rover.rover.messages import LONGEST_PAUSE_S, ODOM_EVERY_S, STEP_S, odometry
 
 FLOOR = World(room=Box(-100.0, -100.0, 100.0, 100.0))
 COMMAND_LASTS_S = 0.5

@@ -130,28 +130,46 @@ def test_what_builds_a_students_own_types_comes_when_it_is_asked_for(
 
 
 @pytest.mark.slow
-def test_tf_is_built_where_it_can_be(arm: CourseCopy, tmp_path: Path) -> None:
-    """Without a compiler the rover runs all the same, and nobody waits for one."""
+def test_tf_is_built_for_who_asks_for_it(arm: CourseCopy, tmp_path: Path) -> None:
+    """Without a compiler the rover runs all the same, and nobody waits for one unasked."""
     path = without_compiler(tmp_path)
     asked = arm.venv / "roslings/groups/interfaces"
     assert arm.run("rover", "--tf", PATH=path).code == 0
+    assert arm.run("rover").code == 0
     assert not asked.exists()
     assert arm.run("rover", "--tf").code == 0
     assert asked.exists()
 
 
 @pytest.mark.slow
-def test_tf_that_comes_built_needs_no_compiler(arm: CourseCopy, tmp_path: Path) -> None:
-    """The rover publishes it when it is asked to."""
+@pytest.mark.parametrize("command", ["rover", "my-rover", "lab"])
+def test_tf_that_comes_built_needs_no_compiler(
+    arm: CourseCopy, tmp_path: Path, command: str
+) -> None:
+    """It is there for every rover, also for one in a notebook, but where it is told not to."""
     path = without_compiler(tmp_path)
-    source = arm.root / "packages/rover/src/rover/interfaces/tf2_msgs"
+    add_built_tf(arm.root)
+    assert arm.run(command, "--no-tf", PATH=path).code == 0
+    assert not (arm.site / "tf2_msgs").exists()
+    assert arm.run(command, PATH=path).code == 0
+    assert (arm.site / "tf2_msgs/__init__.py").is_file()
+
+
+@pytest.mark.slow
+def test_no_drive_waits_for_other_types(arm: CourseCopy, tmp_path: Path) -> None:
+    """A lab may have types that must be built: the rover needs none of them."""
+    add_built_tf(arm.root)
+    add_types(arm.root)
+    assert arm.run("rover", PATH=without_compiler(tmp_path)).code == 0
+    assert not (arm.site / "tf2_msgs").exists()
+
+
+def add_built_tf(root: Path) -> None:
+    """The type of /tf, as it comes built with a course."""
+    source = root / "packages/rover/src/rover/interfaces/tf2_msgs"
     source.mkdir(parents=True)
     (source / "package.xml").write_text("<package/>")
-    build(arm.root, source, {"python/tf2_msgs/__init__.py": ""})
-    assert arm.run("rover", PATH=path).code == 0
-    assert not (arm.site / "tf2_msgs").exists()
-    assert arm.run("rover", "--tf", PATH=path).code == 0
-    assert (arm.site / "tf2_msgs/__init__.py").is_file()
+    build(root, source, {"python/tf2_msgs/__init__.py": ""})
 
 
 def interfaces_of(root: Path) -> Interfaces:

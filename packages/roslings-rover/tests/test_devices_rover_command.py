@@ -20,6 +20,7 @@ from roslings_rover.remembered import has_reached_a_ball, remember_the_ball
 from roslings_rover.rover import Ball, Box, Circle, Motion, Pose, Rover, World
 from roslings_rover.rover.displays import Lines, Terminal
 from roslings_rover.rover.driven import LEAVES_M, DrivenRover
+from roslings_rover.rover.frames import FrameOptions
 from roslings_rover.rover.map_display import shown_until
 from roslings_rover.rover.node import RoverNode
 from roslings_rover.rover.text_map import ASCII, UNICODE, text_map
@@ -73,22 +74,23 @@ def test_its_topics_have_the_usual_names_and_types(
     odom = run(["ros2", "topic", "echo", "--once", "/odom"], terminal, tmp_path).stdout
     assert "frame_id: odom" in odom and "child_frame_id: base_link" in odom
     scan = run(["ros2", "topic", "echo", "--once", "/scan"], terminal, tmp_path).stdout
-    assert "range_max: 6.0" in scan
+    assert "range_max: 6.0" in scan and "frame_id: laser" in scan
     field = ["ros2", "topic", "echo", "--once", "/camera/image_raw", "--field"]
     assert "1920" in run([*field, "step"], terminal, tmp_path).stdout
-    assert "/tf [" not in listed  # it would change the graphs that lessons show
-    assert "/tf" not in "\n".join(rover.lines)
+    header = run([*field, "header.frame_id"], terminal, tmp_path).stdout
+    assert "camera_optical" in header
 
 
 @pytest.mark.slow
-def test_asked_to_it_publishes_tf(terminal: dict[str, str], tmp_path: Path) -> None:
+def test_by_itself_it_publishes_tf(terminal: dict[str, str], tmp_path: Path) -> None:
     """20 times a second, beside /odom, and from one to the other."""
     imported("tf2_msgs")
-    with running(["rover", "--view", "lines", "--tf"], terminal, tmp_path) as rover:
+    with running(["rover", "--view", "lines"], terminal, tmp_path) as rover:
         rover.wait_for("says /odom, /scan, /tf")
         rover.wait_for("standing")
         listed = run(["ros2", "topic", "list", "-t"], terminal, tmp_path).stdout
         assert "/tf [tf2_msgs/msg/TFMessage]" in listed
+        assert "/tf_static [tf2_msgs/msg/TFMessage]" in listed
         words = ["ros2", "topic", "echo", "--once", "/tf"]
         moved = run(words, terminal, tmp_path).stdout
         assert "frame_id: odom" in moved and "child_frame_id: base_link" in moved
@@ -105,23 +107,74 @@ def test_asked_to_it_publishes_tf(terminal: dict[str, str], tmp_path: Path) -> N
 
 
 @pytest.mark.slow
+def test_told_so_it_publishes_no_tf(terminal: dict[str, str], tmp_path: Path) -> None:
+    """And says nothing of it."""
+    with running(["rover", "--view", "lines", "--no-tf"], terminal, tmp_path) as rover:
+        rover.wait_for("standing")
+        listed = run(["ros2", "topic", "list"], terminal, tmp_path).stdout.split()
+        assert "/odom" in listed and not {"/tf", "/tf_static"} & set(listed)
+        assert "/tf" not in "\n".join(rover.lines)
+
+
+@pytest.mark.slow
+def test_a_drift_is_on_odom_and_the_map_has_the_truth(
+    terminal: dict[str, str], tmp_path: Path
+) -> None:
+    """By a fifth: what is told of it, on its screen, and at its end."""
+    words = ["rover", "--view", "lines", "--drift", "20"]
+    with running(words, terminal, tmp_path) as rover:
+        assert "The map shows where the rover truly is" in rover.wait_for("/odom drifts by 20 %")
+        rover.wait_for("standing")
+        assert run([*PUB, FORWARD], terminal, tmp_path).returncode == 0
+        true_m = metres(rover.wait_for(r"x 0\.[3-9].* standing"))
+        field = ["--field", "pose.pose.position.x"]
+        told = run(["ros2", "topic", "echo", "--once", "/odom", *field], terminal, tmp_path).stdout
+        assert float(told.split()[0]) == pytest.approx(1.2 * true_m, abs=0.01)
+        assert rover.interrupt() == 0
+    believed = rover.wait_for("^By its odometry it is at")
+    assert metres(believed) == pytest.approx(1.2 * true_m, abs=0.015)
+
+
+def metres(line: str) -> float:
+    """How far along x, in words of the rover."""
+    found = re.search(r"x (-?\d+\.\d+) m", line)
+    assert found, line
+    return float(found[1])
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--drift", "a bit"], "the drift is a number from -50 to 50, not 'a bit'"),
+        (["--drift", "nan"], "the drift is a number from -50 to 50, not 'nan'"),
+        (["--drift", "51"], "the drift is a number from -50 to 50, not '51'"),
+        (["--map-frame", "--no-tf"], "--map-frame is said on /tf. Leave out --no-tf."),
+    ],
+)
+def test_what_makes_no_sense_is_refused(
+    terminal: dict[str, str], tmp_path: Path, words: list[str], told: str
+) -> None:
+    """Before anything runs."""
+    done = run(["rover", *words], terminal, tmp_path)
+    assert done.returncode == 2 and told in " ".join(done.stderr.split())
+
+
 @pytest.mark.parametrize(
     ("distro", "step"),
     [
-        ("", "sudo apt install g++"),
+        ("", "sudo apt install g++ then start it with --tf"),
         ("jazzy", "sudo apt install ros-jazzy-tf2-msgs"),
     ],
 )
 def test_where_tf_has_no_type_the_next_step_is_on_the_screen(
     monkeypatch: pytest.MonkeyPatch, distro: str, step: str
 ) -> None:
-    """And only where /tf was asked for; it fits beside the map."""
+    """And only where somebody wants /tf; it fits beside the map."""
     monkeypatch.setenv("ROS_DISTRO", distro)
-    asked = about_tf(RoverNode(Rover(), tf=True))
-    assert step in " ".join(word.strip() for word in asked)
-    assert max(map(len, asked)) <= 32
-    assert about_tf(RoverNode(Rover(), tf=True, publishes_tf=True)) == ()
-    assert about_tf(RoverNode(Rover())) == ("(with /tf: rover --tf)",)
+    told = about_tf(RoverNode(Rover()))
+    assert step in " ".join(word.strip() for word in told)
+    assert max(map(len, told)) <= 32
+    assert about_tf(RoverNode(Rover(), frames=FrameOptions(published=False))) == ()
 
 
 @pytest.mark.slow

@@ -26,7 +26,7 @@ from roslings.judge.views import Demand
 from roslings.lockstep.driven_rover import NS_PER_S, DrivenRoomRover, RoomPlan
 from roslings.lockstep.record import VelocityCommand
 from roslings.lockstep.stepping import BEGINS_S
-from roslings_rover.rover.node import laser_scan
+from roslings_rover.rover.messages import laser_scan
 
 WANDER = lab("wander").card.node("wander")
 ROOMS = written(WANDER.of(RoomWords).rooms, WANDER.node)

@@ -49,6 +49,8 @@ class RoverOptions:
     room: int | None = None
     """The seed of the room that it is in; None: the course's own room."""
     more_keys: str = ""
+    tf: bool = True
+    """It says its frames on /tf and /tf_static, where their type is there."""
 
     @property
     def wanders(self) -> bool:
@@ -184,7 +186,13 @@ def assembled(
             wish.wanders,
             home / NAME if wish.keeps_bag else None,
         )
-        node = node_for(rover, crew.wiring.robot, by_keys=wish.by_keys, more_keys=wish.more_keys)
+        node = node_for(
+            rover,
+            crew.wiring.robot,
+            tf=wish.tf,
+            by_keys=wish.by_keys,
+            more_keys=wish.more_keys,
+        )
         stack.enter_context(node)
         yield Assembled(node, crew, PartsCaption(node, choice, broken), board)
 

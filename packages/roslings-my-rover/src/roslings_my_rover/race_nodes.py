@@ -15,7 +15,8 @@ from typing import Any
 
 from roslings_my_rover.race import Entrant, Race
 from roslings_rover.rover.driven import DrivenRover
-from roslings_rover.rover.node import NAME, QUIET
+from roslings_rover.rover.messages import QUIET
+from roslings_rover.rover.node import NAME
 from roslings_rover.rover.subscriptions import LONGEST_SENTENCE, SENTENCE_LASTS_S, HeardSentence
 
 STARTER = "race"
@@ -60,6 +61,9 @@ class RacingRover(DrivenRover):
         """The context goes on without it."""
         self._executor.remove_node(self._node)
         self._node.destroy_node()
+
+    def _open_frames(self) -> None:
+        """Two rovers would speak on one /tf."""
 
     def _open_topics(self) -> None:
         super()._open_topics()

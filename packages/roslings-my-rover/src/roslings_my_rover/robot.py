@@ -14,6 +14,7 @@ from roslings_my_rover.silence import Silence, Silent
 from roslings_my_rover.wiring import ENTRANCE, LINKS, ODOMETRY, OWNED, STATUS, RoverWiring, Steady
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.rover.driven import DrivenRover
+from roslings_rover.rover.frames import FrameOptions
 from roslings_rover.rover.in_room import RoomRover
 from roslings_rover.rover.room_node import RoomNode
 from roslings_rover.rover.rover import Rover
@@ -81,6 +82,7 @@ class MyRover(DrivenRover):
         from std_msgs.msg import Float64
 
         node, wiring = self._node, self.wiring
+        self._open_frames()
         if wiring.hears:
             self._links.append(node.create_subscription(Twist, wiring.hears, self._hear, 10))
         if wiring.believes:
@@ -107,6 +109,13 @@ class MyRover(DrivenRover):
             qos_profile_sensor_data,
             raw=True,
         )
+
+    def _open_frames(self) -> None:
+        """A part that says them is their only publisher."""
+        if self.wiring.says_frames:
+            super()._open_frames()
+        else:
+            self._close_frames()
 
     def _close_links(self) -> None:
         for each in self._links:
@@ -140,6 +149,11 @@ class MyRover(DrivenRover):
     def _tell_where(self) -> None:
         if self._odom is not None:
             super()._tell_where()
+
+    def _tell_frames(self, stamp: Any) -> None:
+        """odom to base_link is what /odom says, whoever says that."""
+        if self._frames is not None:
+            self._frames.say(self.rover.pose, self.believed or self.rover.pose, stamp)
 
     def _show_picture(self) -> None:
         if self._pictures is not None:
@@ -195,6 +209,7 @@ class MyRover(DrivenRover):
         heading = 2 * math.atan2(turn.z, turn.w)
         if all(map(math.isfinite, (place.x, place.y, heading))):
             self._believed = Pose(place.x, place.y, heading)
+            self._tell_frames(told.header.stamp)
         self._silence.hear(ODOMETRY)
 
 
@@ -206,12 +221,16 @@ class MyRoomRover(MyRover, RoomNode):
 
 
 def node_for(
-    rover: Rover, wiring: RoverWiring, *, by_keys: bool = False, more_keys: str = ""
+    rover: Rover,
+    wiring: RoverWiring,
+    *,
+    tf: bool = True,
+    by_keys: bool = False,
+    more_keys: str = "",
 ) -> MyRover:
     """The node of a rover of parts, where it is."""
-    if isinstance(rover, RoomRover):
-        return MyRoomRover(rover, by_keys=by_keys, wiring=wiring, more_keys=more_keys)
-    return MyRover(rover, by_keys=by_keys, wiring=wiring, more_keys=more_keys)
+    kind = MyRoomRover if isinstance(rover, RoomRover) else MyRover
+    return kind(rover, frames=FrameOptions(tf), by_keys=by_keys, wiring=wiring, more_keys=more_keys)
 
 
 def _listed(names: Iterable[str]) -> str:

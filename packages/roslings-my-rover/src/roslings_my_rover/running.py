@@ -28,6 +28,7 @@ def run(
     seed: int = 0,
     keeps_bag: bool = False,
     room: int | None = None,
+    tf: bool = True,
 ) -> Rover:
     """Run it until Ctrl-C; returns the rover as it then is. With `keeps_bag`, see `drive_bag`.
 
@@ -39,7 +40,7 @@ def run(
     """
     if keeps_bag:
         require_place()
-    wish = RoverOptions(follows, keeps_bag, seed, keys, room, TOLD)
+    wish = RoverOptions(follows, keeps_bag, seed, keys, room, TOLD, tf)
     with ExitStack() as stack:
         stack.enter_context(rover_of_terminal())
         made = stack.enter_context(_told(choice, wish))

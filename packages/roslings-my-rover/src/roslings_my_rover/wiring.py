@@ -74,6 +74,8 @@ class RoverWiring:
     says_odom: bool = True
     shows_pictures: bool = True
     says_echo: bool = False
+    says_frames: bool = True
+    """On /tf and /tf_static, where their type is there."""
     believes: bool = False
     """It hears /odom, and shows where the part thinks that it is."""
     links: tuple[tuple[str, str], ...] = ()

@@ -169,16 +169,24 @@ class Session:
         with DirectNode() as direct_node:
             return direct_node.settle().nodes()
 
-    def rover(self, seed: int = 0, room: int | None = None) -> LiveRover:
-        """The course's simulated rover (/cmd_vel, /odom, /scan); it ends with the session.
+    def rover(
+        self,
+        seed: int = 0,
+        room: int | None = None,
+        *,
+        tf: bool = True,
+        drift_percent: float = 0.0,
+        map_frame: bool = False,
+    ) -> LiveRover:
+        """The course's simulated rover (/cmd_vel, /odom, /scan, /tf); it ends with the session.
 
-        `room` is the seed of another room, as of `./roslings rover --room`. Raises NoSeed
-        and RoverThere.
+        `room` is the seed of another room; that and the others are as of `./roslings rover`. /tf is
+        published where tf2_msgs is there. Raises NoSeed and RoverThere.
         """
         from roslings_rover.rover.notebook import start
 
         self._spinning.check()
-        return self._things.enter_context(start(seed, room=room))
+        return self._things.enter_context(start(seed, tf, room, drift_percent, map_frame))
 
     def my_rover(
         self,

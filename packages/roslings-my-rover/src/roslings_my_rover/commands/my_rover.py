@@ -68,6 +68,9 @@ def add_options(word: argparse.ArgumentParser) -> None:
         default="auto",
         help="where the map is shown (default: a window where there is a screen)",
     )
+    word.add_argument(
+        "--no-tf", dest="tf", action="store_false", help="do not publish /tf and /tf_static"
+    )
     word.add_argument("--seed", metavar="N", type=int, default=0, help="for the sensors' noise")
 
 
@@ -113,5 +116,6 @@ def run(options: argparse.Namespace) -> int:
         options.seed,
         options.bag,
         room=options.room,
+        tf=options.tf,
     )
     return OK

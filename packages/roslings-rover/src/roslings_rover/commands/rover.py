@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import argparse
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 from ros2_on_pip.errors import OK, WRONG_USE
 from ros2_on_pip.typed_paths import shown
+
+MOST_DRIFT_PERCENT = 50.0
 
 
 def add_options(word: argparse.ArgumentParser) -> None:
@@ -27,7 +30,26 @@ def add_options(word: argparse.ArgumentParser) -> None:
         help="show the sentences that your nodes say, and keep the limit of /motor_state; it"
         " is one more subscription on each of these topics",
     )
-    word.add_argument("--tf", action="store_true", help="publish /tf too")
+    word.add_argument(
+        "--tf",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="say on /tf and /tf_static where its frames are, which it does by itself where their"
+        " type is there",
+    )
+    word.add_argument(
+        "--drift",
+        metavar="PERCENT",
+        type=typed_drift,
+        default=0.0,
+        help="let /odom count each metre and each turn too long by so much, as a real robot does;"
+        " the map shows where the rover truly is",
+    )
+    word.add_argument(
+        "--map-frame",
+        action="store_true",
+        help="say on /tf where odom is in the frame map: the rover's place in map is the true one",
+    )
     word.add_argument(
         "--room",
         metavar="SEED",
@@ -56,7 +78,11 @@ def run(options: argparse.Namespace) -> int:
     if options.name or options.to:
         print("roslings: --name and --to belong to --sick.", file=sys.stderr)
         return WRONG_USE
+    if options.map_frame and not options.tf:
+        print("roslings: --map-frame is said on /tf. Leave out --no-tf.", file=sys.stderr)
+        return WRONG_USE
     from ros2_on_pip.surroundings import check_middleware, domain_id, prepare
+    from roslings_rover.rover.frames import FrameOptions
     from roslings_rover.rover.running import run as run_rover
 
     prepare()
@@ -68,8 +94,8 @@ def run(options: argparse.Namespace) -> int:
         options.seed,
         options.keys,
         listens=options.listen,
-        tf=options.tf,
         room=options.room,
+        frames=FrameOptions(options.tf, options.drift, options.map_frame),
     )
     return OK
 
@@ -82,6 +108,15 @@ def typed_seed(typed: str) -> int:
         return seed_of(typed)
     except NoSeed as error:
         raise argparse.ArgumentTypeError(str(error)) from error
+
+
+def typed_drift(typed: str) -> float:
+    """The drift of the odometry in per cent, as argparse reads it."""
+    with suppress(ValueError):
+        if abs(percent := float(typed)) <= MOST_DRIFT_PERCENT:
+            return percent
+    most = f"{MOST_DRIFT_PERCENT:g}"
+    raise argparse.ArgumentTypeError(f"the drift is a number from -{most} to {most}, not {typed!r}")
 
 
 def _sick_rover(name: str | None, folder: Path | None) -> int:

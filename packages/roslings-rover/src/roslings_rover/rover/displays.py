@@ -22,6 +22,7 @@ from roslings_rover.rover.words import (
     FIRST_COMMAND,
     KEYS_PACE,
     KEYS_TELL,
+    about_tf,
     below,
     beside,
     heard,
@@ -99,8 +100,10 @@ class Lines(NewsLines):
         self._say(f"The rover is ready. It hears /cmd_vel and says {topics}.")
         if node.listens:
             self._say("It also hears sentences (std_msgs/msg/String), and /motor_state.")
-        if node.tf and not node.publishes_tf:
+        if about_tf(node):
             self._say(f"/tf is left out: its type is missing. {' '.join(next_steps())}")
+        if percent := node.frames.drift_percent:
+            self._say(f"/odom drifts by {percent:g} %. The map shows where the rover truly is.")
         if node.by_keys:
             self._say(f"{KEYS_TELL}\n{node.more_keys or KEYS_PACE}")
             return

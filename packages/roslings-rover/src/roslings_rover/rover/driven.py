@@ -55,8 +55,11 @@ class DrivenRover(RoverNode):
 
     @property
     def believed(self) -> Pose | None:
-        """Where somebody thinks that it is; None where nobody says it."""
-        return None
+        """Where somebody thinks that it is; None where nobody errs.
+
+        Its own odometry, where that drifts.
+        """
+        return self.odometer.pose if self.frames.drift_percent else None
 
     def _open_timers(self) -> None:
         super()._open_timers()

@@ -8,7 +8,7 @@ from typing import Any
 
 from ros2_on_pip.keyboard import Hands, Keys, NoKeys, Steering, keys_of
 from roslings_rover.errors import DeviceTrouble
-from roslings_rover.rover.node import QUIET
+from roslings_rover.rover.messages import QUIET
 
 NAME = "keyboard"
 

@@ -1,4 +1,4 @@
-"""The rover as a ROS node: it listens on /cmd_vel and publishes /odom, /scan and, asked to, /tf.
+"""The rover as a ROS node: it listens on /cmd_vel and publishes /odom, /scan, /tf and /tf_static.
 
 What its camera sees is on /camera/image_raw, as long as somebody listens.
 """
@@ -14,6 +14,21 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from roslings_rover.models.differential_drive import Motion
+from roslings_rover.rover.frames import (
+    CAMERA_FRAME,
+    FrameOptions,
+    FramePublishers,
+    frame_publishers,
+)
+from roslings_rover.rover.messages import (
+    LONGEST_PAUSE_S,
+    ODOM_EVERY_S,
+    QUIET,
+    STEP_S,
+    laser_scan,
+    odometry,
+)
+from roslings_rover.rover.odometer import Odometer
 from roslings_rover.rover.rover import Rover
 from roslings_rover.rover.subscriptions import HeardSentence, RoverSubscriptions, subscribing
 
@@ -21,19 +36,10 @@ if TYPE_CHECKING:
     from roslings_rover.camera import Frame
 
 NAME = "rover"
-ODOM_FRAME, BODY_FRAME, CAMERA_FRAME = "odom", "base_link", "camera"
-STEP_S = 0.02
-ODOM_EVERY_S = 0.05
 PICTURE_EVERY_S = 0.1
 LOOK_EVERY_S = 2.0
 COMMAND_LASTS_S = 1.5
 """`ros2 topic pub` repeats a command once a second: the rover then drives without a break."""
-
-LONGEST_PAUSE_S = 0.25
-"""A computer that slept, or a stopped process, does not let the rover leap."""
-
-QUIET = ["--ros-args", "--disable-external-lib-logs", "--disable-stdout-logs"]
-"""The map is on the screen: log lines would tear it, and files in ~/.ros nobody tidies."""
 
 
 @dataclass
@@ -48,16 +54,19 @@ class RoverNode:
     notice: str = ""
     """What the person at the screen should know; empty where all is well."""
     commands: int = 0
-    tf: bool = False
-    """Somebody asked for /tf."""
-    publishes_tf: bool = False
+    frames: FrameOptions = FrameOptions()  # noqa: RUF009 - it cannot change
     by_keys: bool = False
     """The keys of this terminal drive it."""
     listens: bool = False
     """It hears what others say, too."""
+    _frames: FramePublishers | None = field(default=None, init=False, repr=False)
     _told_s: float = field(default=-math.inf, repr=False)
     _subscriptions: RoverSubscriptions | None = field(default=None, repr=False)
     _parts: ExitStack = field(default_factory=ExitStack, repr=False)
+
+    def __post_init__(self) -> None:
+        self.odometer = Odometer(self.rover.pose, self.frames.drift_percent)
+        """What /odom says."""
 
     def __enter__(self) -> RoverNode:
         import rclpy
@@ -91,6 +100,11 @@ class RoverNode:
         self._context.try_shutdown()
 
     @property
+    def publishes_tf(self) -> bool:
+        """Somebody wants it, and its type is there."""
+        return self._frames is not None
+
+    @property
     def sentence(self) -> HeardSentence | None:
         """What it hears somebody say; None where nobody says something, or it does not listen."""
         return self._subscriptions.sentence if self._subscriptions else None
@@ -113,8 +127,16 @@ class RoverNode:
         self._scan = node.create_publisher(LaserScan, "scan", qos_profile_sensor_data)
         self._pictures = node.create_publisher(Image, "camera/image_raw", qos_profile_sensor_data)
         self._camera = SyntheticCamera(self.rover.camera_model)
-        self._tf = _tf_publisher(node) if self.tf else None
-        self.publishes_tf = self._tf is not None
+        self._open_frames()
+
+    def _open_frames(self) -> None:
+        if self.frames.published and self._frames is None:
+            self._frames = frame_publishers(self._node, self.frames.map_frame)
+
+    def _close_frames(self) -> None:
+        if self._frames is not None:
+            self._frames.close(self._node)
+            self._frames = None
 
     def _open_timers(self) -> None:
         node = self._node
@@ -143,19 +165,28 @@ class RoverNode:
             self.rover.drive(Motion())
         self.rover.step(min(now_s - self._stepped_s, LONGEST_PAUSE_S))
         self._stepped_s = now_s
+        self.odometer.follow(self.rover)
+
+    def _now(self) -> Any:
+        """The stamp of this moment; the rover is then where it is at this moment."""
+        self._step()
+        return self._node.get_clock().now().to_msg()
 
     def _tell_where(self) -> None:
-        stamp = self._node.get_clock().now().to_msg()
-        self._odom.publish(odometry(self.rover, stamp))
-        if self._tf is not None:
-            self._tf.publish(_transforms(self.rover, stamp))
+        stamp = self._now()
+        self._odom.publish(odometry(self.odometer, stamp))
+        self._tell_frames(stamp)
+
+    def _tell_frames(self, stamp: Any) -> None:
+        if self._frames is not None:
+            self._frames.say(self.rover.pose, self.odometer.pose, stamp)
 
     def _tell_distances(self) -> None:
-        self._scan.publish(laser_scan(self.rover, self._node.get_clock().now().to_msg()))
+        self._scan.publish(laser_scan(self.rover, self._now()))
 
     def _show_picture(self) -> None:
         if self._pictures.get_subscription_count():
-            stamp = self._node.get_clock().now().to_msg()
+            stamp = self._now()
             self._pictures.publish(_image(self._camera.look(self.rover), stamp))
 
     def _look_for_twins(self) -> None:
@@ -177,52 +208,6 @@ def _what_it_cannot_do(twist: Any) -> str:
     return f"{used[0]} does nothing: use linear.x (forward) and angular.z (turn left)."
 
 
-def _tf_publisher(node: Any) -> Any | None:
-    """A publisher on /tf, where tf2_msgs is: no wheel has it, and `--tf` brings it."""
-    try:
-        from tf2_msgs.msg import TFMessage
-    except ImportError:
-        return None
-    return node.create_publisher(TFMessage, "/tf", 100)
-
-
-def odometry(rover: Rover, stamp: Any) -> Any:
-    """A nav_msgs/msg/Odometry of where the rover is and how it moves."""
-    from nav_msgs.msg import Odometry
-
-    told = Odometry(child_frame_id=BODY_FRAME)
-    told.header.stamp, told.header.frame_id = stamp, ODOM_FRAME
-    place = told.pose.pose
-    place.position.x, place.position.y = rover.pose.x_m, rover.pose.y_m
-    _turn(place.orientation, rover.pose.heading_rad)
-    told.twist.twist.linear.x = rover.motion.forward_m_s
-    told.twist.twist.angular.z = rover.motion.turn_rad_s
-    return told
-
-
-def _turn(quaternion: Any, angle_rad: float) -> None:
-    """A turn about the upright axis: z = sin(a / 2), w = cos(a / 2)."""
-    quaternion.z, quaternion.w = math.sin(angle_rad / 2), math.cos(angle_rad / 2)
-
-
-def laser_scan(rover: Rover, stamp: Any) -> Any:
-    """A sensor_msgs/msg/LaserScan of what the scanner reads: a turn of it, in metres."""
-    from sensor_msgs.msg import LaserScan
-
-    scanner = rover.scanner
-    scan = LaserScan(
-        angle_min=0.0,
-        angle_max=scanner.step_rad * (scanner.rays - 1),
-        angle_increment=scanner.step_rad,
-        scan_time=1 / scanner.turns_hz,
-        range_min=scanner.nearest_m,
-        range_max=scanner.farthest_m,
-        ranges=array.array("f", rover.scan()),  # it is sent in a fifth of a list's time
-    )
-    scan.header.stamp, scan.header.frame_id = stamp, BODY_FRAME
-    return scan
-
-
 def _image(frame: Frame, stamp: Any) -> Any:
     from sensor_msgs.msg import Image
 
@@ -235,15 +220,3 @@ def _image(frame: Frame, stamp: Any) -> Any:
     )
     image.header.stamp, image.header.frame_id = stamp, CAMERA_FRAME
     return image
-
-
-def _transforms(rover: Rover, stamp: Any) -> Any:
-    from geometry_msgs.msg import TransformStamped
-    from tf2_msgs.msg import TFMessage
-
-    moved = TransformStamped(child_frame_id=BODY_FRAME)
-    moved.header.stamp, moved.header.frame_id = stamp, ODOM_FRAME
-    moved.transform.translation.x = rover.pose.x_m
-    moved.transform.translation.y = rover.pose.y_m
-    _turn(moved.transform.rotation, rover.pose.heading_rad)
-    return TFMessage(transforms=[moved])

@@ -11,11 +11,10 @@ from typing import Any
 
 from roslings_rover.models.rooms import MovingWorld
 from roslings_rover.models.world import Box, Circle, World
+from roslings_rover.rover.messages import ODOM_FRAME
 
 ROOM, MOVING = "/room", "/room/moving"
 MARKERS = "visualization_msgs/msg/MarkerArray"
-FRAME = "odom"
-"""/odom tells the exact truth, so a room stands still in its frame."""
 FLOOR, THINGS = "floor", "things"
 """Of `ns` in a marker: the floor as far as the walls, and all that is on it."""
 HIGH_M, FLOOR_HIGH_M = 0.5, 0.01
@@ -24,34 +23,37 @@ MOST_MARKERS = 1_000
 LARGEST_M = 1_000.0
 
 
-def markers_of_room(world: World, stamp: Any) -> Any:
-    """Its floor, and what stands on it."""
+def markers_of_room(world: World, stamp: Any, frame: str = ODOM_FRAME) -> Any:
+    """Its floor, and what stands on it; `frame` is one in which the room stands still."""
+    from std_msgs.msg import Header
     from visualization_msgs.msg import MarkerArray
 
-    floor = _marker(0, world.room, stamp, FLOOR, FLOOR_RGB)
+    header = Header(stamp=stamp, frame_id=frame)
+    floor = _marker(0, world.room, header, FLOOR, FLOOR_RGB)
     floor.scale.z, floor.pose.position.z = FLOOR_HIGH_M, -FLOOR_HIGH_M / 2
     things = (
-        _marker(number, shape, stamp, THINGS, THING_RGB)
+        _marker(number, shape, header, THINGS, THING_RGB)
         for number, shape in enumerate(world.obstacles)
     )
     return MarkerArray(markers=[floor, *things])
 
 
-def markers_of_moving(moving: Sequence[Circle], stamp: Any) -> Any:
+def markers_of_moving(moving: Sequence[Circle], stamp: Any, frame: str = ODOM_FRAME) -> Any:
     """What moves, where it is now."""
+    from std_msgs.msg import Header
     from visualization_msgs.msg import MarkerArray
 
-    found = (_marker(n, each, stamp, THINGS, MOVING_RGB) for n, each in enumerate(moving))
+    header = Header(stamp=stamp, frame_id=frame)
+    found = (_marker(n, each, header, THINGS, MOVING_RGB) for n, each in enumerate(moving))
     return MarkerArray(markers=list(found))
 
 
 def _marker(
-    number: int, shape: Circle | Box, stamp: Any, space: str, rgb: tuple[float, float, float]
+    number: int, shape: Circle | Box, header: Any, space: str, rgb: tuple[float, float, float]
 ) -> Any:
     from visualization_msgs.msg import Marker
 
-    marker = Marker(ns=space, id=number, action=Marker.ADD)
-    marker.header.stamp, marker.header.frame_id = stamp, FRAME
+    marker = Marker(header=header, ns=space, id=number, action=Marker.ADD)
     marker.type = Marker.CUBE if isinstance(shape, Box) else Marker.CYLINDER
     place, size = marker.pose.position, marker.scale
     if isinstance(shape, Box):

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from roslings_rover.camera.room_camera import RoomCamera
 from roslings_rover.models.rooms import IN_WORDS, moving_in
 from roslings_rover.rover.driven import DrivenRover
+from roslings_rover.rover.frames import MAP_FRAME, FrameOptions
 from roslings_rover.rover.in_room import STANDS_S, RoomRover
+from roslings_rover.rover.messages import ODOM_FRAME
 from roslings_rover.rover.room_markers import MOVING, ROOM, markers_of_moving, markers_of_room
 from roslings_rover.rover.rover import Rover
 
@@ -54,6 +56,12 @@ class RoomNode(DrivenRover):
         told = f"Bump {len(bumps)}: the rover ran into {what}."
         return f"{told} It stands for {STANDS_S:g} s; then drive it back."
 
+    @property
+    def _room_frame(self) -> str:
+        """In `odom` a room stands still only as long as the odometry is the truth."""
+        truth_elsewhere = self.frames.drift_percent or self.frames.map_frame
+        return MAP_FRAME if truth_elsewhere else ODOM_FRAME
+
     def _open_topics(self) -> None:
         super()._open_topics()
         from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -64,7 +72,8 @@ class RoomNode(DrivenRover):
         kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._room = node.create_publisher(MarkerArray, ROOM.lstrip("/"), kept)
         self._moving = node.create_publisher(MarkerArray, MOVING.lstrip("/"), 10)
-        self._room.publish(markers_of_room(self.rover.world, node.get_clock().now().to_msg()))
+        stamp = node.get_clock().now().to_msg()
+        self._room.publish(markers_of_room(self.rover.world, stamp, self._room_frame))
 
     def _open_timers(self) -> None:
         super()._open_timers()
@@ -74,13 +83,19 @@ class RoomNode(DrivenRover):
     def _tell_what_moves(self) -> None:
         if self._moving.get_subscription_count():
             stamp = self._node.get_clock().now().to_msg()
-            self._moving.publish(markers_of_moving(moving_in(self.rover.world), stamp))
+            self._moving.publish(
+                markers_of_moving(moving_in(self.rover.world), stamp, self._room_frame)
+            )
 
 
 def node_for(
-    rover: Rover, *, by_keys: bool = False, listens: bool = False, tf: bool = False
+    rover: Rover,
+    frames: FrameOptions = FrameOptions(),  # noqa: B008 - it cannot change
+    *,
+    by_keys: bool = False,
+    listens: bool = False,
 ) -> DrivenRover:
     """The node that a rover needs where it is."""
     if isinstance(rover, RoomRover):
-        return RoomNode(rover, by_keys=by_keys, listens=listens, tf=tf)
-    return DrivenRover(rover, by_keys=by_keys, listens=listens, tf=tf)
+        return RoomNode(rover, frames=frames, by_keys=by_keys, listens=listens)
+    return DrivenRover(rover, frames=frames, by_keys=by_keys, listens=listens)

@@ -10,6 +10,7 @@ from roslings_rover.errors import DeviceTrouble
 from roslings_rover.remembered import remember_the_ball
 from roslings_rover.rover.displays import opened
 from roslings_rover.rover.driven import DrivenRover
+from roslings_rover.rover.frames import FrameOptions
 from roslings_rover.rover.keys import driving
 from roslings_rover.rover.made import rover_in
 from roslings_rover.rover.map_display import Display, View, shown_until
@@ -36,19 +37,18 @@ def run(
     seed: int = 0,
     keys: bool = False,
     listens: bool = False,
-    tf: bool = False,
     room: int | None = None,
+    frames: FrameOptions = FrameOptions(),  # noqa: B008 - it cannot change
 ) -> Rover:
     """Run the rover until Ctrl-C; returns it as it then is. With `keys`, this terminal drives it.
 
-    One that `listens` shows what others say; with `tf` it also publishes /tf, where the type of
-    that topic is installed. `room` is the seed of a room that it is in. Raises NoWindow,
-    CannotSaveMap, NoTerminal, NoSeed, RoverInCell.
+    One that `listens` shows what others say. `room` is the seed of a room that it is in. Raises
+    NoWindow, CannotSaveMap, NoTerminal, NoSeed, RoverInCell.
     """
     picture = picture and _as_typed(picture)
     if picture:
         _require_place_for(picture)
-    node = node_for(rover_in(room, seed), by_keys=keys, listens=listens, tf=tf)
+    node = node_for(rover_in(room, seed), frames, by_keys=keys, listens=listens)
     with rover_of_terminal(), driving(keys) as look, node, listening() as asked:
         with opened(view, node) as display:
             _go_on(node, display, asked, look)

@@ -6,6 +6,7 @@ import math
 import os
 from collections.abc import Iterator
 
+from roslings_rover.models.differential_drive import Pose
 from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.node import RoverNode
 
@@ -27,6 +28,7 @@ def beside(node: DrivenRover) -> list[str]:
         f"speed    {shown(motion.forward_m_s):>6} m/s{_limit(node)}",
         f"turn     {shown(motion.turn_rad_s):>6} rad/s",
         f"way      {node.rover.way_m:6.2f} m",
+        *about_drift(node),
         *(f"{name:8} {count:6}" for name, count in node.counted.items()),
         "",
         *(node.about_parts or _topics(node)),
@@ -62,11 +64,9 @@ def heard(node: RoverNode) -> str:
 
 
 def about_tf(node: RoverNode) -> tuple[str, ...]:
-    """Why there is no /tf; at most 32 columns each."""
-    if node.publishes_tf:
+    """Why there is no /tf where somebody wants it; at most 32 columns each."""
+    if node.publishes_tf or not node.frames.published:
         return ()
-    if not node.tf:
-        return ("(with /tf: rover --tf)",)
     return ("no /tf: its type is missing.", *(f"  {step}" for step in next_steps()))
 
 
@@ -74,7 +74,13 @@ def next_steps() -> tuple[str, ...]:
     """How one gets the type of /tf."""
     if os.environ.get("ROS_DISTRO"):
         return ("sudo apt install", "ros-jazzy-tf2-msgs")
-    return ("sudo apt install g++", "then start the rover again")
+    return ("sudo apt install g++", "then start it with --tf")
+
+
+def about_drift(node: RoverNode) -> tuple[str, ...]:
+    """How much too long its odometry counts; at most 32 columns."""
+    percent = node.frames.drift_percent
+    return (f"drift    {shown(percent, 1):>6} % in /odom",) if percent else ()
 
 
 def said(node: RoverNode) -> list[str]:
@@ -111,6 +117,8 @@ def news(node: DrivenRover) -> list[str]:
 def at_its_end(node: DrivenRover, whose: str) -> Iterator[str]:
     """What is said after Ctrl-C: where it is, how far it went, and what was counted."""
     yield f"{whose} rover is at {position(node)}."
+    if node.frames.drift_percent:
+        yield f"By its odometry it is at {place(node.odometer.pose)}."
     yield f"It went {node.rover.way_m:.2f} m."
     for name, count in node.counted.items():
         yield f"{name.capitalize()}: {count}."
@@ -120,6 +128,10 @@ def position(node: RoverNode) -> str:
     """Where it is and how it moves, in one line."""
     pose, motion = node.rover.pose, node.rover.motion
     moves = abs(motion.forward_m_s) > STOPPED or abs(motion.turn_rad_s) > STOPPED
+    return f"{place(pose)}, {'moving' if moves else 'standing'}"
+
+
+def place(pose: Pose) -> str:
+    """Where something is, in words."""
     degrees = shown(math.degrees(pose.heading_rad), 0)
-    where = f"x {shown(pose.x_m)} m, y {shown(pose.y_m)} m, heading {degrees} degrees"
-    return f"{where}, {'moving' if moves else 'standing'}"
+    return f"x {shown(pose.x_m)} m, y {shown(pose.y_m)} m, heading {degrees} degrees"

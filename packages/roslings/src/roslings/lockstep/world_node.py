@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from roslings.lockstep.record import VelocityCommand
 from roslings_rover.rover.in_room import RoomRover
-from roslings_rover.rover.node import QUIET, laser_scan, odometry
+from roslings_rover.rover.messages import QUIET, laser_scan, odometry
 
 if TYPE_CHECKING:
     from roslings.lockstep.quiet import ThreadAccount
