@@ -27,8 +27,9 @@ class Frames(Node):
 
     def __init__(self):
         # TODO 4: the name of the card. A buffer and its listener, both broadcasters,
-        #         a publisher for the walls. Subscriptions: /odom calls self.hear,
-        #         /scan calls self.look. Then call self.say_where_the_laser_is().
+        #         an empty list of scans that wait, a publisher for the walls.
+        #         Subscriptions: /odom calls self.hear, /scan calls self.look.
+        #         Then call self.say_where_the_laser_is().
         # TODO 8: all cells of the map, a publisher that keeps the last map, and a
         #         timer that calls self.publish_map.
         super().__init__('change_me')
