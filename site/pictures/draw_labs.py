@@ -429,16 +429,17 @@ def frames() -> Sheet:
         " beams of its laser. The points where they end stay on the wall: they are numbers in"
         " odom, whose axes stand in the corner.",
     )
-    sheet.add(f'<rect x="30" y="36" width="660" height="18" rx="5" fill="{GREY}"/>')
-    for x in range(230, 450, 20):
+    beams = "".join(
+        f'<path d="M0 0L{x} {y}" stroke="{AMBER}" stroke-width="2"/>'
+        for x, y in ((-55, -118), (-23, -128), (23, -128), (55, -118))
+    )
+    sheet.add(placed(340, 160, beams, name="beams"))
+    sheet.add(f'<rect x="24" y="22" width="672" height="32" fill="{GREY}"/>')
+    for x in range(250, 440, 20):
         sheet.add(f'<circle cx="{x}" cy="55" r="4" fill="{RED}"/>')
     sheet.arrow((60, 186), (130, 186), colour=GREEN)
     sheet.arrow((60, 186), (60, 116), colour=GREEN)
     sheet.text((104, 174), "odom", size=15)
-    beams = "".join(
-        f'<path d="M0 0L{x} -105" stroke="{AMBER}" stroke-width="2"/>' for x in (-60, -20, 20, 60)
-    )
-    sheet.add(placed(340, 160, f"<g>{beams}</g>", name="beams"))
     sheet.add(placed(340, 160, rover(scale=1.4), turned=-90, name="turn"))
     sheet.text((440, 186), "base_link", size=15)
     sheet.text((560, 84), "/walls", size=15)
@@ -447,14 +448,14 @@ def frames() -> Sheet:
         _moved(
             "beams",
             6,
-            "0%, 100% { transform: rotate(-14deg) } 50% { transform: rotate(14deg) }",
+            "0%, 100% { transform: rotate(-10deg) } 50% { transform: rotate(10deg) }",
             rests="none",
         )
         + " "
         + _moved(
             "turn",
             6,
-            "0%, 100% { transform: rotate(-14deg) } 50% { transform: rotate(14deg) }",
+            "0%, 100% { transform: rotate(-10deg) } 50% { transform: rotate(10deg) }",
             rests="none",
         )
     )
