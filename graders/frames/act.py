@@ -68,7 +68,7 @@ SETTLES_S = 1.0
 """The last points may come so long after the drive, of the node's own time."""
 
 MAP_WITHIN_S = 3.0
-LATE_WITHIN_S, QUIET_S = 3.0, 0.3
+LATE_WITHIN_S = 3.0
 EXACT_DECIMALS = 4
 MOST_VALUES = 8
 WALLS_TYPE, MAP_TYPE = "geometry_msgs/msg/PolygonStamped", "nav_msgs/msg/OccupancyGrid"
@@ -163,8 +163,7 @@ def join_late(scene: Scene, topic: TopicContract) -> None:
     heard = FramesHeard()
     scene.appears(lambda: _publisher(scene, topic) is not None, says(topic))
     with _subscribed(scene, heard, "late", topic.topic):
-        scene.until(lambda: bool(heard.steps), LATE_WITHIN_S)
-        scene.until(lambda: False, QUIET_S)
+        scene.until_own(lambda: bool(heard.steps), LATE_WITHIN_S)
     _write_steps(scene, heard)
 
 

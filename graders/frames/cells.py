@@ -28,8 +28,9 @@ THROUGH = 3
 SAMPLE_CELLS = 0.25
 """Of a beam, so many cells apart."""
 
-EXPLAINS = 0.7
-"""So much of the walls lies where a mistake puts them."""
+LOOKED_INTO, EXPLAINS, CLEARLY = 0.95, 0.85, 0.05
+"""Where less of the walls is right, a mistake is looked for; so much of them it must explain, and
+clearly more than is right anyway."""
 
 LETTERS = {100: "#", 0: ".", -1: " "}
 SHOWN = 120
@@ -132,7 +133,7 @@ def measured(drive: Drive, seen: MapSeen, values: NDArray[np.int8]) -> tuple[Map
             "true_walls": _share(_grown(truth.hit), wall),
             "free": _share(told == 0, truth.through),
             "unknown": _share(told == -1, truth.never),
-            "like": _slip(truth, wall, seen) if right < EXPLAINS else "",
+            "like": _slip(truth, wall, seen, right) if right < LOOKED_INTO else "",
         }
     )
     return judged, _shown(told, truth.reach)
@@ -156,19 +157,18 @@ def _share(of: Grid, among: Grid) -> float:
     return round(float((of & among).sum()) / count, 3) if count else 0.0
 
 
-def _slip(truth: Truth, wall: Grid, seen: MapSeen) -> MapSlip:
-    """The mistake that explains where the walls are."""
-    if _share(_transposed(wall, truth, seen), truth.hit) >= EXPLAINS:
-        return "rows_and_columns"
+def _slip(truth: Truth, wall: Grid, seen: MapSeen, right: float) -> MapSlip:
+    """The mistake that explains best where the walls are."""
     cut = np.zeros_like(wall, int)
-    towards_zero = truth.walls + (truth.walls < 0)
-    _count(cut, towards_zero, truth.reach)
-    if _share(wall, cut > 0) >= EXPLAINS:
-        return "cut_towards_zero"
+    _count(cut, truth.walls + (truth.walls < 0), truth.reach)
     shifts = [(x, y) for x in range(-3, 4) for y in range(-3, 4)]
-    if max(_share(np.roll(wall, each, (0, 1)), truth.hit) for each in shifts) >= EXPLAINS:
-        return "elsewhere"
-    return ""
+    guesses: dict[MapSlip, float] = {
+        "": max(right + CLEARLY, EXPLAINS),
+        "rows_and_columns": _share(_transposed(wall, truth, seen), truth.hit),
+        "cut_towards_zero": _share(wall, cut > 0),
+        "elsewhere": max(_share(np.roll(wall, each, (0, 1)), truth.hit) for each in shifts),
+    }
+    return max(guesses, key=lambda slip: guesses[slip])
 
 
 def _transposed(wall: Grid, truth: Truth, seen: MapSeen) -> Grid:

@@ -40,8 +40,8 @@ FIRST_BEAM_RAD = (-2.6, -2.0)
 NO_DISTANCES = (math.nan, math.inf, -math.inf, 0.0, 0.05, 4.3, 30.0, math.nan)
 """What a scan holds besides: nothing of it is a distance."""
 
-OFF_STAMP_S = (0.012, 0.038)
-"""A scan lies between two messages of odometry."""
+OFF_STAMP_S = (0.02, 0.03)
+"""A scan lies in the middle between two messages of odometry: neither of them is near enough."""
 
 LATE_S = 0.07
 """Every other scan comes after the odometry of a later time."""
