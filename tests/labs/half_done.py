@@ -180,6 +180,15 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "wander:Wander.look": {8: ("",)},
         "wander:Wander.decide": {9: ("",)},
     },
+    "frames": {
+        "frames:CELL": {8: ("",)},
+        "frames:WEST": {8: ("",)},
+        "frames:MOST": {7: ("",)},
+        "frames:LATC": {8: ("",)},
+        "frames:Frames.__init__": {8: ("self.cells", "self.map", "self.create_timer"), 4: ("",)},
+        "frames:Frames.hear": {7: ("self.waiting",), 6: ("",)},
+        "frames:Frames.place": {8: (INSIDE + "self.draw",), 7: ("",)},
+    },
 }
 
 

@@ -45,8 +45,8 @@ def test_the_echo_is_where_the_rover_is(tmp_path: Path) -> None:
         assert shift == pytest.approx((place["x"], place["y"], height_m), abs=A_MILLIMETRE)
         assert turn[2] == pytest.approx(yaw_rad, abs=A_MILLIMETRE)
     assert re.search(r"^odom\n└─ base_link +\d+\.\d Hz, ", shown, re.MULTILINE)
-    assert re.search(r"^   ├─ camera_optical +static", shown, re.MULTILINE)
-    assert re.search(r"^   └─ laser +static", shown, re.MULTILINE)
+    assert re.search(r"^   ├─ laser +static", shown, re.MULTILINE)
+    assert re.search(r"^   └─ camera_optical +static", shown, re.MULTILINE)
 
 
 def echoed(
