@@ -120,7 +120,7 @@ DAYS: dict[str, Shown] = {
     "12-frames": Shown(
         "frames, and a map",
         (
-            Row("/frames", "tells /tf, and lays the walls into odom"),
+            Row("/frames", "says /tf, and puts the walls into odom"),
             _boxed("/map", "where walls are, and where is none"),
         ),
     ),
