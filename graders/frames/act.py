@@ -224,7 +224,12 @@ class Teller:
         """The whole drive; whether its callbacks kept up."""
         first_s = time.monotonic()
         with self._scene.probe.barrier([self._node.node]) as barrier:
+            # What is announced comes in its order. So a node that answers knows the publishers that
+            # were made before, and nothing of the drive is lost on the way.
             there = self._scene.until(lambda: barrier.ready, FIRST_MESSAGE_WITHIN_S)
+            if there:
+                barrier.send()
+                self._scene.until_own(lambda: barrier.is_passed, FIRST_MESSAGE_WITHIN_S)
             for told in self._drive.told:
                 if not self._scene.arena.all_alive():
                     return True
