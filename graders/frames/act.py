@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -31,6 +32,7 @@ from graders.frames.drive import (
 )
 from graders.frames.places import mistake_in, off_the_walls_m
 from graders.frames.record import (
+    HEARS_ON,
     BodySeen,
     DriveSeen,
     FramesSeen,
@@ -47,6 +49,7 @@ from roslings.experiment.missed import hears, says
 from roslings.experiment.on_the_wall import FIRST_MESSAGE_WITHIN_S
 from roslings.experiment.own_time import PATIENCE_S, OwnTime
 from roslings.experiment.scene import Scene
+from roslings.experiment.timing import accounting
 from roslings.probe.content import message_class
 from roslings.probe.events import no_publisher_events, no_subscription_events
 from roslings.probe.probe import offering
@@ -54,9 +57,12 @@ from roslings.seen.matching import nearest_endpoint
 from roslings_rover.models.differential_drive import Pose, wrapped
 
 NS_PER_S = 10**9
-QUEUE = 1000
+QUEUE = 500
 MOST_KEPT = 2000
 """Messages of one kind: a drive needs a tenth of it."""
+
+MADE_UP_S = 0.02
+"""So much of a delay the next pauses make up for; more of it only makes the drive longer."""
 
 CONFIRMED_S = 2.0
 """So long the first odometry waits until the node's reader has it, if it is one that says so."""
@@ -71,8 +77,6 @@ MAP_WITHIN_S = 3.0
 LATE_WITHIN_S = 3.0
 EXACT_DECIMALS = 4
 MOST_VALUES = 8
-WALLS_TYPE, MAP_TYPE = "geometry_msgs/msg/PolygonStamped", "nav_msgs/msg/OccupancyGrid"
-TF_TYPE = "tf2_msgs/msg/TFMessage"
 MOST_STEPS, MOST_POINTS, LONGEST_NAME = 100, 5000, 100
 LEVEL = 1e-4
 LOOKED_INTO_M = 0.015
@@ -104,52 +108,66 @@ class FramesHeard:
     map: Any = None
     maps: int = 0
 
-    def hear(self, source: Source, message: Any) -> None:
-        """A message with steps."""
+    def hear_steps(self, source: Source, message: Any) -> None:
+        """A message of /tf or /tf_static."""
         if len(self.steps) < MOST_KEPT:
             self.steps += [(source, step) for step in message.transforms]
 
-    def read_walls(self, message: Any) -> int:
-        """In the probe's thread; what the evidence has of the message is the number of points."""
+    def hear_walls(self, message: Any) -> None:
+        """Points."""
         if len(self.walls) < MOST_KEPT:
             self.walls.append(message)
-        return len(message.polygon.points)
 
-    def read_map(self, message: Any) -> int:
+    def hear_map(self, message: Any) -> None:
         """The last one counts."""
         self.map, self.maps = message, self.maps + 1
-        return len(message.data)
 
 
 @contextmanager
 def hearing(scene: Scene, roads: Roads) -> Iterator[FramesHeard]:
-    """Hear what a node will say of frames; who wants to know of all begins before the node does."""
+    """Hear what a node will say of frames; who wants to know of all begins before the node does.
+
+    Subscriptions of our own hear it. Those of the probe are cut where many large messages pile up,
+    and what they hear is kept as a number here.
+    """
     heard = FramesHeard()
-    scene.probe.read_as_it_comes(WALLS_TYPE, heard.read_walls)
-    scene.probe.read_as_it_comes(MAP_TYPE, heard.read_map)
-    scene.probe.read_as_it_comes(TF_TYPE, lambda message: len(message.transforms))
+    for type_name, read in SIZES.items():
+        scene.probe.read_as_it_comes(type_name, read)
     with (
-        _subscribed(scene, heard, "tf", roads.tf.topic),
-        _subscribed(scene, heard, "tf_static", roads.tf_static.topic),
+        _subscribed(scene, roads.tf, partial(heard.hear_steps, "tf")),
+        _subscribed(scene, roads.tf_static, partial(heard.hear_steps, "tf_static"), kept=True),
+        _subscribed(scene, roads.walls, heard.hear_walls),
+        _subscribed(scene, roads.map, heard.hear_map, kept=True),
     ):
         yield heard
 
 
+SIZES: dict[str, Callable[[Any], int]] = {
+    "tf2_msgs/msg/TFMessage": lambda message: len(message.transforms),
+    "geometry_msgs/msg/PolygonStamped": lambda message: len(message.polygon.points),
+    "nav_msgs/msg/OccupancyGrid": lambda message: len(message.data),
+}
+"""Type to what the evidence keeps of each message."""
+
+
 @contextmanager
-def _subscribed(scene: Scene, heard: FramesHeard, source: Source, topic: str) -> Iterator[None]:
+def _subscribed(
+    scene: Scene, topic: TopicContract, hear: Callable[[Any], None], kept: bool = False
+) -> Iterator[None]:
+    """`kept`: also what was said before."""
     from rclpy.qos import DurabilityPolicy, QoSProfile
 
-    kept = DurabilityPolicy.VOLATILE if source == "tf" else DurabilityPolicy.TRANSIENT_LOCAL
+    durability = DurabilityPolicy.TRANSIENT_LOCAL if kept else DurabilityPolicy.VOLATILE
 
-    def hear(message: Any) -> None:
-        heard.hear(source, message)
+    def hear_and_tell(message: Any) -> None:
+        hear(message)
         scene.probe.notify()
 
     subscription = scene.probe.node.create_subscription(
-        message_class(TF_TYPE),
-        topic,
-        hear,
-        QoSProfile(depth=QUEUE, durability=kept),
+        message_class(topic.type),
+        topic.topic,
+        hear_and_tell,
+        QoSProfile(depth=QUEUE, durability=durability),
         event_callbacks=no_subscription_events(),
     )
     try:
@@ -162,7 +180,7 @@ def join_late(scene: Scene, topic: TopicContract) -> None:
     """Subscribe now to what never moves, and write down what was kept."""
     heard = FramesHeard()
     scene.appears(lambda: _publisher(scene, topic) is not None, says(topic))
-    with _subscribed(scene, heard, "late", topic.topic):
+    with _subscribed(scene, topic, partial(heard.hear_steps, "late"), kept=True):
         scene.until_own(lambda: bool(heard.steps), LATE_WITHIN_S)
     _write_steps(scene, heard)
 
@@ -187,6 +205,8 @@ class Teller:
         self._publishers: dict[str, Any] = {}
         self._is_confirmed = False
         """We have found the reader; with the first confirmation it has found us."""
+        self._next_s = 0.0
+        """When the last message was due."""
 
     def stamp_ns(self, at_s: float) -> int:
         """Of a time of the drive."""
@@ -222,14 +242,18 @@ class Teller:
 
     def tell_all(self) -> bool:
         """The whole drive; whether its callbacks kept up."""
-        first_s = time.monotonic()
         with self._scene.probe.barrier([self._node.node]) as barrier:
+            # What is announced comes in its order. So a node that answers knows the publishers that
+            # were made before, and nothing of the drive is lost on the way.
             there = self._scene.until(lambda: barrier.ready, FIRST_MESSAGE_WITHIN_S)
-            for told in self._drive.told:
+            if there:
+                barrier.send()
+                self._scene.until_own(lambda: barrier.is_passed, FIRST_MESSAGE_WITHIN_S)
+            self._next_s = time.monotonic()
+            for told, after_s in zip(self._drive.told, self._drive.pauses_s, strict=True):
                 if not self._scene.arena.all_alive():
                     return True
-                comes_s = told.comes_s if isinstance(told, Scan) else told.at_s
-                self._await(first_s + comes_s)
+                self._await(after_s)
                 if isinstance(told, Scan):
                     self._tell_scan(told)
                     barrier.send()
@@ -239,20 +263,24 @@ class Teller:
                     return False
         return True
 
-    def _await(self, due_s: float) -> None:
-        alive = self._scene.arena.all_alive
+    def _await(self, after_s: float) -> None:
+        """So long after the last message: who was late is not made up for."""
+        due_s, alive = self._next_s + after_s, self._scene.arena.all_alive
         self._scene.probe.until(
             lambda: time.monotonic() >= due_s or not alive(), due_s - time.monotonic()
         )
+        self._next_s = max(due_s, time.monotonic() - MADE_UP_S)
 
     def _keeps_up(self, passed: Callable[[], bool]) -> bool:
         """Wait until it has handled the last scan; False where one callback takes too long."""
         if passed():
             return True
-        own, alive = OwnTime(self._scene.arena), self._scene.arena.all_alive
-        self._scene.probe.until(
-            lambda: passed() or own.is_past(BLOCKED_S) or not alive(), BLOCKED_S + PATIENCE_S
-        )
+        alive = self._scene.arena.all_alive
+        with accounting(self._scene, HEARS_ON):
+            own = OwnTime(self._scene.arena)
+            self._scene.probe.until(
+                lambda: passed() or own.is_past(BLOCKED_S) or not alive(), BLOCKED_S + PATIENCE_S
+            )
         return passed() or not alive()
 
     def _tell_place(self, told: Odometry) -> None:

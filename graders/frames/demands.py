@@ -13,8 +13,19 @@ from collections.abc import Sequence
 from graders.frames import faults
 from graders.frames.contract import TreeContract
 from graders.frames.reasons import NoDrive
-from graders.frames.record import DriveSeen, FramesSeen, MapSeen, Part, Source, StepSeen, WallsSeen
+from graders.frames.record import (
+    HEARS_ON,
+    DriveSeen,
+    FramesSeen,
+    MapSeen,
+    Part,
+    Source,
+    StepSeen,
+    WallsSeen,
+)
 from roslings.course import TopicContract
+from roslings.judge.demands import require_its_time
+from roslings.judge.faults.moments import Awaited
 from roslings.judge.views import Demand, ExperimentView
 
 NEAR_M, NEAR_RAD = 0.001, 0.001
@@ -127,6 +138,7 @@ def be_latched(topic: TopicContract, tree: TreeContract) -> Demand[ExperimentVie
 def hear_on(experiment: ExperimentView) -> None:
     """No callback holds the node up."""
     if limit_s := _drive(experiment).blocked_s:
+        require_its_time(experiment.seen, HEARS_ON, limit_s, Awaited("node_answer"))
         raise faults.Blocked(limit_s)
 
 

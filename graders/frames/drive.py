@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -140,6 +141,12 @@ class Drive:
     def told(self) -> list[Odometry | Scan]:
         """One after the other."""
         return sorted([*self.odometry, *self.scans], key=_comes_s)
+
+    @property
+    def pauses_s(self) -> list[float]:
+        """Before each of them."""
+        comes_s = [_comes_s(each) for each in self.told]
+        return [later - one for one, later in pairwise([0.0, *comes_s])]
 
 
 def _comes_s(told: Odometry | Scan) -> float:

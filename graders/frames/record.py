@@ -8,6 +8,9 @@ from pydantic import Field
 
 from roslings.record import Columns, PartSeen, Record
 
+HEARS_ON = "hears on"
+"""The stretches of a drive in which the node is waited for."""
+
 Source = Literal["tf", "tf_static", "late"]
 """A topic; `late`: what a subscription got on /tf_static that came after it was said."""
 
