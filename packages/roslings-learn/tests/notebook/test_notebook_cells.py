@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 
 from kernels import Kernel
 
+from skips import needs
 from sources import python_path, sources
 
 
@@ -173,6 +174,29 @@ def test_what_cannot_be_drawn_is_told(cells: Kernel) -> None:
     assert "2 scans need 2 places" in cells.run("show_scans([LaserScan()] * 2, [1])").said
     assert "it has 0" in cells.run("show_grid(OccupancyGrid())").said
     assert "nothing is seen" in alt_of(cells.run("show_scans([LaserScan()])").shown[0])
+
+
+@needs("module tf2_msgs")
+def test_a_rovers_odometry_may_drift(cells: Kernel) -> None:
+    """Its pose stays the truth, and its frames say what leads there."""
+    ran = cells.run("""
+from geometry_msgs.msg import Twist
+go = Twist()
+go.linear.x = 0.3
+with session() as ros:
+    rover = ros.rover(drift_percent=50.0, map_frame=True)
+    ros.say("/cmd_vel", go)
+    ros.until(lambda: rover.pose.x_m > 0.1, "the rover to move")
+    print(rover.odom_pose.x_m > 1.2 * rover.pose.x_m, rover.publishes_tf)
+    for topic in ("/tf", "/tf_static"):
+        (told,) = ros.collect(topic, count=1)
+        print(*(f"{t.header.frame_id}>{t.child_frame_id}" for t in told.transforms))
+with session() as ros:
+    print(ros.rover(tf=False).publishes_tf)
+""")
+    assert ran.error == "", ran
+    moving, fixed = "map>odom odom>base_link", "base_link>laser base_link>camera_optical"
+    assert ran.text.splitlines() == ["True True", moving, fixed, "False"], ran
 
 
 def test_a_cells_rover_is_the_only_one_in_its_domain(cells: Kernel) -> None:
