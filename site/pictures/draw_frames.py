@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from rover import DARK, FLOOR, GREY, TEAL, placed, rover
+from rover import DARK, GREY, placed, rover
 from sheet import AMBER, BLACK, BLUE, GREEN, RED, Point, Sheet
 
 # --- one nail ------------------------------------------------------------------------------------
@@ -91,9 +91,9 @@ def tree() -> Sheet:
     """The frames of a robot, each with its parent."""
     sheet = Sheet(
         "The tree of frames",
-        "A tree. map is at the top. The parent of odom is map, the parent of base_link is odom. Both"
-        " move, on /tf. base_link is the parent of laser and camera_optical, which never move: they"
-        " are on /tf_static. An arrow goes from each child to its parent.",
+        "A tree. map is at the top. The parent of odom is map, the parent of base_link is odom."
+        " Both move, on /tf. base_link is the parent of laser and camera_optical, which never move:"
+        " they are on /tf_static. An arrow goes from each child to its parent.",
         344,
     )
     wide, high = 150.0, 44.0
@@ -136,8 +136,8 @@ def topics() -> Sheet:
     sheet = Sheet(
         "What never moves, and what does",
         "Two topics over time, and a listener who comes late. On /tf_static one message was told"
-        " once, is kept, and the listener gets it. On /tf a message comes 20 times a second. Nothing"
-        " is kept, and the listener gets the next one.",
+        " once, is kept, and the listener gets it. On /tf a message comes 20 times a second."
+        " Nothing is kept, and the listener gets the next one.",
         264,
     )
     late = 470.0
@@ -173,9 +173,7 @@ def time() -> Sheet:
     )
     y, first, between, count = 140.0, 70.0, 80.0, 6
     newest = first + between * (count - 1)
-    sheet.add(
-        f'<rect x="{newest:g}" y="62" width="{694 - newest:g}" height="150" fill="#ffebe9"/>'
-    )
+    sheet.add(f'<rect x="{newest:g}" y="62" width="{694 - newest:g}" height="150" fill="#ffebe9"/>')
     sheet.arrow((30, y), (700, y))
     sheet.text((696, y + 24), "time", anchor="end")
     for number in range(count):
@@ -206,9 +204,9 @@ def grid() -> Sheet:
     """A map of twelve squares, with their places in the list."""
     sheet = Sheet(
         "Row and column",
-        "A grid of 3 rows with 4 squares each. Row 0 is at the bottom, column 0 at the left. In each"
-        " square stands its index, from 0 to 11. Index 6 is in row 1, column 2: a wall, with the"
-        " value 100. Three squares behind it are unknown, with -1 (minus 1). All others are free,"
+        "A grid of 3 rows with 4 squares each. Row 0 is at the bottom, column 0 at the left. In"
+        " each square stands its index, from 0 to 11. Index 6 is in row 1, column 2: a wall, with"
+        " the value 100. Three squares behind it are unknown, with -1 (minus 1). All others are free,"
         " with 0. The origin is the lower left corner of square 0.",
         344,
     )

@@ -1,5 +1,5 @@
-"""A rover's odometry says: the rover is at x 2.0 m, y 0.5 m, in odom. Make the step of the
-tree of it, and print where the rover is: "rover at 2.0, 0.5"."""
+"""A rover's odometry says: the rover is at x 2.0 m, y 0.5 m, in odom. Make the step of
+the tree of it, and print where the rover is: "rover at 2.0, 0.5"."""
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.time import Time

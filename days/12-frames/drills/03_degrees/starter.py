@@ -1,5 +1,6 @@
-"""A laser sits in the middle of a rover, and is turned 90 degrees to the left. It sees a
-nail 1 m ahead of itself. Print where the nail is for the rover: "nail at 0.00, 1.00"."""
+"""A laser sits in the middle of a rover, and is turned 90 degrees to the left. It sees
+a nail 1 m ahead of itself. Print where the nail is for the rover:
+"nail at 0.00, 1.00"."""
 
 import math
 

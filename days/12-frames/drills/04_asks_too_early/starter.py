@@ -1,7 +1,8 @@
-"""A finder: a node called finder. It looks up where the laser sits on the rover, and prints
-how far ahead: "laser at 0.20 m". While nobody has told of it, the node waits.
+"""A finder: a node called finder. It looks up where the laser sits on the rover, and
+prints how far ahead: "laser at 0.20 m". While nobody has told of it, the node waits.
 
-The drill runs the frames, too. By hand, start them in another terminal: python3 frames.py
+The drill runs the frames, too. By hand, start them in another terminal:
+python3 frames.py
 """
 
 import rclpy

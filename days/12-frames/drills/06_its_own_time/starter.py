@@ -1,5 +1,6 @@
-"""A painter: a node called painter. A laser turns, and tells on /nail where it saw a nail,
-in its own frame. For each message, print where the nail is in odom: "nail at 1.00, 1.00".
+"""A painter: a node called painter. A laser turns, and tells on /nail where it saw a
+nail, in its own frame. For each message, print where the nail is in odom:
+"nail at 1.00, 1.00".
 
 The drill runs the laser, too. By hand, start it in another terminal: python3 turner.py
 """

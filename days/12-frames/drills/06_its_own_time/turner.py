@@ -1,5 +1,5 @@
-"""A laser that turns, once around in six seconds, and a nail at 1.00, 1.00 in odom. It tells
-on /nail where it saw the nail, 0.2 s after that."""
+"""A laser that turns, once around in six seconds, and a nail at 1.00, 1.00 in odom. It
+tells on /nail where it saw the nail, 0.2 s after that."""
 
 import math
 

@@ -1,6 +1,6 @@
-"""Foretell: the odometry says where base_link is in odom. A second later another node says
-where base_link is in map. After each, the program prints from where base_link can be found.
-Which line is written second? Write it as a text, then check."""
+"""Foretell: the odometry says where base_link is in odom. A second later another node
+says where base_link is in map. After each, the program prints from where base_link can
+be found. Which line is written second? Write it as a text, then check."""
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.time import Time

@@ -1,5 +1,5 @@
-"""A camera looks ahead, and sees a ball 2 m ahead of itself. Print where the ball is for the
-rover, ahead and to the left: "ball at 2.10, 0.00"."""
+"""A camera looks ahead, and sees a ball 2 m ahead of itself. Print where the ball is
+for the rover, ahead and to the left: "ball at 2.10, 0.00"."""
 
 from geometry_msgs.msg import PointStamped, Quaternion, TransformStamped
 from tf2_geometry_msgs import do_transform_point

@@ -1,5 +1,5 @@
-"""A ball is in column 480 of a picture that is 640 wide, and 2 m ahead of the camera. Print
-where it is for the rover, ahead and to the left: "ball at 2.10, -1.00"."""
+"""A ball is in column 480 of a picture that is 640 wide, and 2 m ahead of the camera.
+Print where it is for the rover, ahead and to the left: "ball at 2.10, -1.00"."""
 
 from geometry_msgs.msg import PointStamped, Quaternion, TransformStamped
 from tf2_geometry_msgs import do_transform_point

@@ -1,5 +1,5 @@
-"""A map has squares of 0.05 m, and column 0 begins at x 0. Print the columns of four places:
-"columns -2 -1 0 1"."""
+"""A map has squares of 0.05 m, and column 0 begins at x 0. Print the columns of four
+places: "columns -2 -1 0 1"."""
 
 import math
 

@@ -1,5 +1,5 @@
-"""A map of three rows with four squares each, all in one list. There is a nail in row 1,
-column 2. Print the rows, the one with the nail so: "row 1: ..#."."""
+"""A map of three rows with four squares each, all in one list. There is a nail in row
+1, column 2. Print the rows, the one with the nail so: "row 1: ..#."."""
 
 WIDTH, HEIGHT = 4, 3
 

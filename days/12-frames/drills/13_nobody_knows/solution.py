@@ -1,5 +1,5 @@
-"""A beam goes over three squares, and hits a wall in the fourth one. Print the row of six
-squares as a map has them: "0 0 0 100 -1 -1"."""
+"""A beam goes over three squares, and hits a wall in the fourth one. Print the row of
+six squares as a map has them: "0 0 0 100 -1 -1"."""
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 

@@ -134,7 +134,10 @@ def _png(count: int, draw: Callable[[Sequence[Any]], None]) -> bytes:
 
 
 def show_grid(grid: Any) -> None:
-    """Show a nav_msgs/OccupancyGrid: occupied is black, free white, unknown grey. Raises BadGrid."""
+    """Show a nav_msgs/OccupancyGrid: black is occupied, white free, grey unknown.
+
+    Raises BadGrid.
+    """
     show(grid_picture(grid))
 
 
