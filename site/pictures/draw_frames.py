@@ -206,8 +206,8 @@ def grid() -> Sheet:
         "Row and column",
         "A grid of 3 rows with 4 squares each. Row 0 is at the bottom, column 0 at the left. In"
         " each square stands its index, from 0 to 11. Index 6 is in row 1, column 2: a wall, with"
-        " the value 100. Three squares behind it are unknown, with -1 (minus 1). All others are free,"
-        " with 0. The origin is the lower left corner of square 0.",
+        " the value 100. Three squares behind it are unknown, with -1 (minus 1). All others are"
+        " free, with 0. The origin is the lower left corner of square 0.",
         344,
     )
     for index in range(COLUMNS * ROWS):
