@@ -34,7 +34,7 @@ class OtherCount(NotebookTrouble):
         super().__init__(f"{scans} scans need {scans} places, and there are {places}.")
 
 
-class BadGrid(NotebookTrouble):
+class UnfilledGrid(NotebookTrouble):
     """The cells do not fill the rows."""
 
     def __init__(self, wide: int, high: int, cells: int) -> None:
@@ -136,16 +136,16 @@ def _png(count: int, draw: Callable[[Sequence[Any]], None]) -> bytes:
 def show_grid(grid: Any) -> None:
     """Show a nav_msgs/OccupancyGrid: black is occupied, white free, grey unknown.
 
-    Raises BadGrid.
+    Raises UnfilledGrid.
     """
     show(grid_picture(grid))
 
 
 def grid_picture(grid: Any) -> NotebookPicture:
-    """The picture that `show_grid` shows. Raises BadGrid."""
+    """The picture that `show_grid` shows. Raises UnfilledGrid."""
     wide, high, cells = grid.info.width, grid.info.height, list(grid.data)
     if not cells or len(cells) != wide * high:
-        raise BadGrid(wide, high, len(cells))
+        raise UnfilledGrid(wide, high, len(cells))
     occupied, unknown = sum(cell >= OCCUPIED for cell in cells), sum(cell < 0 for cell in cells)
     free = len(cells) - occupied - unknown
     alt = (
