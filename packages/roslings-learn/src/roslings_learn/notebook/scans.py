@@ -13,8 +13,10 @@ from roslings_learn.notebook.picture import NotebookPicture, show
 from roslings_rover.palette import colour_of
 
 Point = tuple[float, float]
-WIDE_IN, HIGH_IN, DOTS_PER_INCH = 3.6, 3.6, 110
+WIDE_IN, HIGH_IN, DOTS_PER_INCH = 3.6, 3.6, 100
 """Inches of one picture; two stand side by side."""
+COLOURS = 64
+"""A page with six such pictures stays small."""
 DOT_POINTS = 2.0
 OCCUPIED = 50
 """From here on a cell is drawn as occupied, as RViz does."""
@@ -121,13 +123,15 @@ def _axes(axes: Any, title: str) -> None:
 def _png(count: int, draw: Callable[[Sequence[Any]], None]) -> bytes:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
+    from PIL import Image
 
     figure = Figure(figsize=(WIDE_IN * count, HIGH_IN), layout="constrained")
     FigureCanvasAgg(figure)
     draw([figure.add_subplot(1, count, number + 1) for number in range(count)])
-    file = io.BytesIO()
-    figure.savefig(file, format="png", dpi=DOTS_PER_INCH)
-    return file.getvalue()
+    large, small = io.BytesIO(), io.BytesIO()
+    figure.savefig(large, format="png", dpi=DOTS_PER_INCH)
+    Image.open(large).convert("RGB").quantize(COLOURS).save(small, "PNG", optimize=True)
+    return small.getvalue()
 
 
 # --- a map of cells ------------------------------------------------------------------------------
