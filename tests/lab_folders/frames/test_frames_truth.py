@@ -18,7 +18,7 @@ from graders.frames.drive import (
     NO_DISTANCES,
     ODOMETRY_EVERY_S,
     Drive,
-    Mount,
+    LaserMount,
     Numbers,
     Odometry,
     Scan,
@@ -29,7 +29,7 @@ from graders.frames.record import MapSeen, MapSlip, WayWrong
 from roslings_rover.models.differential_drive import Pose
 
 SEEDS = (1, 2, 3)
-MOUNT = Mount(0.12, -0.07, 1.9)
+MOUNT = LaserMount(0.12, -0.07, 1.9)
 CELL_M, CELLS, CORNER_M = 0.05, 240, -6.0
 KNOWN = ("standing", "moving")
 
