@@ -201,7 +201,7 @@ def test_distances(
         drive.must(have_a_point_for_each(WALLS))
 
 
-@check(needs=["walls"])
+@check(needs=["distances"])
 def test_standing(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
     """While the rover stands, the points are on walls."""
     for drive in (middle, beside, anywhere):

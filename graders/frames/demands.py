@@ -33,8 +33,9 @@ LENGTH_OFF = 0.001
 MOST_LOST = 0.05
 """So many messages of a drive may find no answer, whatever the reason is."""
 
-MOST_BESIDE = 0.1
-"""So many scans of one part may be off: where the motion changes between two odometries."""
+MOST_BESIDE: dict[faults.MovingPart, float] = {"standing": 0.25, "moving": 0.1}
+"""So many scans of a part may be off. The first one after a turn counts as standing, and who takes
+it a little too early is told so by the part in which the rover moves."""
 
 KNOWN: tuple[Part, ...] = ("standing", "moving")
 VALUES = {-1, 0, 100}
@@ -236,7 +237,7 @@ def lie_on_walls(tree: TreeContract, part: faults.MovingPart) -> Demand[Experime
     def demand(experiment: ExperimentView) -> None:
         said = [each for _, each in _answers(_drive(experiment), (part,))]
         beside = [each for each in said if each.off_m > limit_m]
-        if len(beside) > MOST_BESIDE * len(said):
+        if len(beside) > MOST_BESIDE[part] * len(said):
             names = [each.like for each in beside]
             worst = max(each.off_m for each in beside)
             likely = max(set(names), key=names.count)
