@@ -4,7 +4,7 @@ The names, numbers and points stand in labs/frames/card.yaml. Experiments tell t
 of drives that nobody knows; checks read what it said of them, and run nothing.
 """
 
-from graders.frames.act import Roads, hearing, join_late, tell_of_a_drive
+from graders.frames.act import FrameTopics, hearing, join_late, tell_of_a_drive
 from graders.frames.contract import FramesWords
 from graders.frames.demands import (
     answer_scans,
@@ -22,7 +22,7 @@ from graders.frames.demands import (
     show_walls,
     show_what_is_free,
 )
-from graders.frames.drive import Mount
+from graders.frames.drive import LaserMount
 from roslings.capabilities.parameters.act import list_parameters
 from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.capabilities.parameters.demands import declare_its_parameters
@@ -55,7 +55,7 @@ CARD = lab("frames").card
 FRAMES = CARD.node("frames")
 ODOMETRY, SCAN = FRAMES.subscribes
 TF_STATIC, TF, WALLS, MAP = FRAMES.publishes
-ROADS = Roads(ODOMETRY, SCAN, TF_STATIC, TF, WALLS, MAP)
+ROADS = FrameTopics(ODOMETRY, SCAN, TF_STATIC, TF, WALLS, MAP)
 LASER_X, LASER_Y, LASER_YAW = FRAMES.of(ParameterWords).named("laser_x", "laser_y", "laser_yaw")
 TREE = written(FRAMES.of(FramesWords).frames, FRAMES.node)
 
@@ -74,7 +74,7 @@ def waiting(scene: Scene) -> None:
 @experiment
 def middle(scene: Scene) -> None:
     """A drive with the laser where it is when nobody says anything."""
-    mount = Mount(float(LASER_X.default), float(LASER_Y.default), float(LASER_YAW.default))
+    mount = LaserMount(float(LASER_X.default), float(LASER_Y.default), float(LASER_YAW.default))
     with hearing(scene, ROADS) as heard, scene.run(FRAMES):
         tell_of_a_drive(scene, FRAMES, ROADS, TREE, mount, heard)
 
@@ -84,13 +84,15 @@ def beside(scene: Scene) -> None:
     """A drive in another room, with the laser elsewhere on the rover, and turned."""
     told = {each.name: float(each.tried) for each in (LASER_X, LASER_Y, LASER_YAW)}
     with hearing(scene, ROADS) as heard, scene.run(FRAMES, start=Start(parameters=told)):
-        tell_of_a_drive(scene, FRAMES, ROADS, TREE, Mount(*told.values()), heard)
+        tell_of_a_drive(scene, FRAMES, ROADS, TREE, LaserMount(*told.values()), heard)
 
 
 @experiment
 def anywhere(scene: Scene) -> None:
     """A drive in a third room, with the laser where nobody can know before."""
-    mount = Mount(scene.between(-0.15, -0.05), scene.between(0.02, 0.1), scene.between(-2.9, -0.5))
+    mount = LaserMount(
+        scene.between(-0.15, -0.05), scene.between(0.02, 0.1), scene.between(-2.9, -0.5)
+    )
     names = (LASER_X.name, LASER_Y.name, LASER_YAW.name)
     told = dict(zip(names, (mount.x_m, mount.y_m, mount.yaw_rad), strict=True))
     with hearing(scene, ROADS) as heard, scene.run(FRAMES, start=Start(parameters=told)):
@@ -199,7 +201,7 @@ def test_distances(
         drive.must(have_a_point_for_each(WALLS))
 
 
-@check(needs=["walls"])
+@check(needs=["distances"])
 def test_standing(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
     """While the rover stands, the points are on walls."""
     for drive in (middle, beside, anywhere):

@@ -24,7 +24,7 @@ from graders.frames.drive import (
     RANGE_MIN_M,
     STEP_RAD,
     Drive,
-    Mount,
+    LaserMount,
     Odometry,
     Scan,
     beams_rad,
@@ -34,7 +34,7 @@ from graders.frames.places import mistake_in, off_the_walls_m
 from graders.frames.record import (
     HEARS_ON,
     BodySeen,
-    DriveSeen,
+    FramesDriveSeen,
     FramesSeen,
     MapSeen,
     ScanSaid,
@@ -84,7 +84,7 @@ LOOKED_INTO_M = 0.015
 
 
 @dataclass(frozen=True)
-class Roads:
+class FrameTopics:
     """The topics of a node that says frames."""
 
     odometry: TopicContract
@@ -99,7 +99,7 @@ class Roads:
 
 
 @dataclass
-class FramesHeard:
+class HeardOfFrames:
     """What came of the four topics, as it came."""
 
     steps: list[tuple[Source, Any]] = field(default_factory=list)
@@ -124,13 +124,13 @@ class FramesHeard:
 
 
 @contextmanager
-def hearing(scene: Scene, roads: Roads) -> Iterator[FramesHeard]:
+def hearing(scene: Scene, roads: FrameTopics) -> Iterator[HeardOfFrames]:
     """Hear what a node will say of frames; who wants to know of all begins before the node does.
 
     Subscriptions of our own hear it. Those of the probe are cut where many large messages pile up,
     and what they hear is kept as a number here.
     """
-    heard = FramesHeard()
+    heard = HeardOfFrames()
     for type_name, read in SIZES.items():
         scene.probe.read_as_it_comes(type_name, read)
     with (
@@ -178,7 +178,7 @@ def _subscribed(
 
 def join_late(scene: Scene, topic: TopicContract) -> None:
     """Subscribe now to what never moves, and write down what was kept."""
-    heard = FramesHeard()
+    heard = HeardOfFrames()
     scene.appears(lambda: _publisher(scene, topic) is not None, says(topic))
     with _subscribed(scene, topic, partial(heard.hear_steps, "late"), kept=True):
         scene.until_own(lambda: bool(heard.steps), LATE_WITHIN_S)
@@ -192,11 +192,11 @@ def _publisher(scene: Scene, topic: TopicContract) -> Endpoint | None:
 # --- what it is told ---------------------------------------------------------------------------
 
 
-class Teller:
+class DriveTeller:
     """Tells one node of a drive, in the drive's own time or more slowly."""
 
     def __init__(
-        self, scene: Scene, node: NodeContract, roads: Roads, tree: TreeContract, drive: Drive
+        self, scene: Scene, node: NodeContract, roads: FrameTopics, tree: TreeContract, drive: Drive
     ) -> None:
         self._scene, self._node, self._roads = scene, node, roads
         self._tree, self._drive = tree, drive
@@ -335,19 +335,19 @@ def _stamp_ns(header: Any) -> int:
 def tell_of_a_drive(
     scene: Scene,
     node: NodeContract,
-    roads: Roads,
+    roads: FrameTopics,
     tree: TreeContract,
-    mount: Mount,
-    heard: FramesHeard,
+    mount: LaserMount,
+    heard: HeardOfFrames,
 ) -> None:
     """Tell the running node of a drive with its laser at `mount`, and write down what it says.
 
     >>> with hearing(scene, ROADS) as heard, scene.run(FRAMES):
-    ...     tell_of_a_drive(scene, FRAMES, ROADS, TREE, Mount(), heard)
+    ...     tell_of_a_drive(scene, FRAMES, ROADS, TREE, LaserMount(), heard)
     """
     drive = drive_in(scene.seed, mount)
-    teller = Teller(scene, node, roads, tree, drive)
-    seen = DriveSeen(
+    teller = DriveTeller(scene, node, roads, tree, drive)
+    seen = FramesDriveSeen(
         seed=drive.room.seed,
         laser_x_m=mount.x_m,
         laser_y_m=mount.y_m,
@@ -365,14 +365,14 @@ def tell_of_a_drive(
         _write_map(scene, drive, heard, seen)
 
 
-def _await_the_rest(scene: Scene, drive: Drive, heard: FramesHeard) -> None:
+def _await_the_rest(scene: Scene, drive: Drive, heard: HeardOfFrames) -> None:
     """The last points, and a map that has them."""
     maps, known = heard.maps, sum(scan.part in ("standing", "moving") for scan in drive.scans)
     scene.until_own(lambda: len(heard.walls) >= known, SETTLES_S)
     scene.until_own(lambda: heard.maps > maps, MAP_WITHIN_S if heard.maps else SETTLES_S)
 
 
-def _write_steps(scene: Scene, heard: FramesHeard) -> None:
+def _write_steps(scene: Scene, heard: HeardOfFrames) -> None:
     """Each once; of what moves, the first."""
     found: dict[tuple[object, ...], StepSeen] = {}
     for source, told in list(heard.steps):
@@ -410,10 +410,10 @@ class _Writing:
     """Holds what was said against the truth, by stamps."""
 
     drive: Drive
-    teller: Teller
+    teller: DriveTeller
     tree: TreeContract
-    heard: FramesHeard
-    seen: DriveSeen
+    heard: HeardOfFrames
+    seen: FramesDriveSeen
 
     def write(self) -> None:
         self._write_body()
@@ -481,7 +481,7 @@ def _walls(drive: Drive, message: Any, stamp_ns: int, scan: Scan | None) -> Wall
     return seen
 
 
-def _write_map(scene: Scene, drive: Drive, heard: FramesHeard, seen: DriveSeen) -> None:
+def _write_map(scene: Scene, drive: Drive, heard: HeardOfFrames, seen: FramesDriveSeen) -> None:
     if (told := heard.map) is None:
         return
     info, values = told.info, np.array(told.data, np.int8)

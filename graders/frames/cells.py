@@ -29,7 +29,7 @@ SAMPLE_CELLS = 0.25
 """Of a beam, so many cells apart."""
 
 LOOKED_INTO, EXPLAINS, CLEARLY = 0.95, 0.85, 0.05
-"""Where less of the walls is right, a mistake is looked for; so much of them it must explain, and
+"""Where less of the walls is right, a mistake is looked for. So much of them it must explain, and
 clearly more than is right anyway."""
 
 LETTERS = {100: "#", 0: ".", -1: " "}
@@ -38,7 +38,7 @@ SHOWN = 120
 
 
 @dataclass(frozen=True)
-class Truth:
+class MapTruth:
     """What a whole drive has shown, in cells around (0, 0)."""
 
     cell_m: float
@@ -53,7 +53,7 @@ class Truth:
         return len(self.hit) // 2
 
 
-def truth_of(drive: Drive, cell_m: float) -> Truth:
+def truth_of(drive: Drive, cell_m: float) -> MapTruth:
     """Of the scans whose place can be known."""
     reach = round(REACH_M / cell_m)
     hit, through, endless = (np.zeros((2 * reach, 2 * reach), int) for _ in range(3))
@@ -66,7 +66,7 @@ def truth_of(drive: Drive, cell_m: float) -> Truth:
             _count(through, _cells(_along(scan, points, cell_m), cell_m), reach)
             _count(endless, _cells(_along(scan, _ends(drive, scan), cell_m), cell_m), reach)
     near_hit = _grown(hit > 0)
-    return Truth(
+    return MapTruth(
         cell_m=cell_m,
         walls=np.unique(_cells(np.vstack(places), cell_m), axis=0),
         hit=hit > 0,
@@ -157,7 +157,7 @@ def _share(of: Grid, among: Grid) -> float:
     return round(float((of & among).sum()) / count, 3) if count else 0.0
 
 
-def _slip(truth: Truth, wall: Grid, seen: MapSeen, right: float) -> MapSlip:
+def _slip(truth: MapTruth, wall: Grid, seen: MapSeen, right: float) -> MapSlip:
     """The mistake that explains best where the walls are."""
     cut = np.zeros_like(wall, int)
     _count(cut, truth.walls + (truth.walls < 0), truth.reach)
@@ -171,7 +171,7 @@ def _slip(truth: Truth, wall: Grid, seen: MapSeen, right: float) -> MapSlip:
     return max(guesses, key=lambda slip: guesses[slip])
 
 
-def _transposed(wall: Grid, truth: Truth, seen: MapSeen) -> Grid:
+def _transposed(wall: Grid, truth: MapTruth, seen: MapSeen) -> Grid:
     """As if rows had been columns, within the map that there is."""
     left, low = (round(each / seen.cell_m) + truth.reach for each in (seen.x_m, seen.y_m))
     turned = np.zeros_like(wall)

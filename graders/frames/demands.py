@@ -12,10 +12,10 @@ from collections.abc import Sequence
 
 from graders.frames import faults
 from graders.frames.contract import TreeContract
-from graders.frames.reasons import NoDrive
+from graders.frames.reasons import NoDriveTold
 from graders.frames.record import (
     HEARS_ON,
-    DriveSeen,
+    FramesDriveSeen,
     FramesSeen,
     MapSeen,
     Part,
@@ -33,18 +33,19 @@ LENGTH_OFF = 0.001
 MOST_LOST = 0.05
 """So many messages of a drive may find no answer, whatever the reason is."""
 
-MOST_BESIDE = 0.1
-"""So many scans of one part may be off: where the motion changes between two odometries."""
+MOST_BESIDE: dict[faults.MovingPart, float] = {"standing": 0.25, "moving": 0.1}
+"""So many scans of a part may be off. The first one after a turn counts as standing, and who takes
+it a little too early is told so by the part in which the rover moves."""
 
 KNOWN: tuple[Part, ...] = ("standing", "moving")
 VALUES = {-1, 0, 100}
 
 
-def _drive(experiment: ExperimentView) -> DriveSeen:
+def _drive(experiment: ExperimentView) -> FramesDriveSeen:
     """Raises NothingToJudge where the node was not told of one."""
     drive = experiment.seen.part(FramesSeen).drive
     if drive is None or not drive.heard:
-        raise NoDrive("not_told")
+        raise NoDriveTold("not_told")
     return drive
 
 
@@ -56,7 +57,7 @@ def say_where_the_laser_is(topic: TopicContract, tree: TreeContract) -> Demand[E
 
     >>> moved.must(say_where_the_laser_is(TF_STATIC, TREE))
     """
-    wanted = faults.Step(tree.body, tree.laser)
+    wanted = faults.TreeStep(tree.body, tree.laser)
 
     def demand(experiment: ExperimentView) -> None:
         drive = _drive(experiment)
@@ -94,7 +95,7 @@ def _turn_slip(found: float, wanted: float) -> faults.LaserSlip:
     return "turn"
 
 
-def _require_rotation(step: StepSeen, wanted: faults.Step) -> None:
+def _require_rotation(step: StepSeen, wanted: faults.TreeStep) -> None:
     if abs(step.length - 1.0) > LENGTH_OFF:
         raise faults.NoQuaternion(wanted, step.length)
 
@@ -102,7 +103,7 @@ def _require_rotation(step: StepSeen, wanted: faults.Step) -> None:
 def _step(
     experiment: ExperimentView,
     topic: TopicContract,
-    wanted: faults.Step,
+    wanted: faults.TreeStep,
     sources: Sequence[Source],
 ) -> StepSeen:
     """The last step of these two frames. Raises StepMissing."""
@@ -110,11 +111,11 @@ def _step(
     for step in reversed(told):
         if (step.parent, step.child) == (wanted.parent, wanted.child):
             return step
-    found = tuple(dict.fromkeys(faults.Step(each.parent, each.child) for each in told))
+    found = tuple(dict.fromkeys(faults.TreeStep(each.parent, each.child) for each in told))
     raise faults.StepMissing(topic.topic, wanted, found or (faults.Nowhere(),), _slip(told, wanted))
 
 
-def _slip(told: Sequence[StepSeen], wanted: faults.Step) -> faults.StepSlip:
+def _slip(told: Sequence[StepSeen], wanted: faults.TreeStep) -> faults.StepSlip:
     pairs = {(each.parent, each.child) for each in told}
     if (wanted.child, wanted.parent) in pairs:
         return "swapped"
@@ -124,7 +125,7 @@ def _slip(told: Sequence[StepSeen], wanted: faults.Step) -> faults.StepSlip:
 
 def be_latched(topic: TopicContract, tree: TreeContract) -> Demand[ExperimentView]:
     """Who comes late gets the step to the laser, before any odometry came."""
-    wanted = faults.Step(tree.body, tree.laser)
+    wanted = faults.TreeStep(tree.body, tree.laser)
 
     def demand(experiment: ExperimentView) -> None:
         told = experiment.seen.part(FramesSeen).steps
@@ -144,7 +145,7 @@ def hear_on(experiment: ExperimentView) -> None:
 
 def be_a_tree(topic: TopicContract, tree: TreeContract) -> Demand[ExperimentView]:
     """The step to the rover is there, and each frame has one parent."""
-    wanted = faults.Step(tree.odometry, tree.body)
+    wanted = faults.TreeStep(tree.odometry, tree.body)
 
     def demand(experiment: ExperimentView) -> None:
         _drive(experiment)
@@ -161,7 +162,7 @@ def be_a_tree(topic: TopicContract, tree: TreeContract) -> Demand[ExperimentView
 
 def follow_the_odometry(topic: TopicContract, tree: TreeContract) -> Demand[ExperimentView]:
     """Each odometry is told as a step, with its stamp and its place."""
-    wanted = faults.Step(tree.odometry, tree.body)
+    wanted = faults.TreeStep(tree.odometry, tree.body)
 
     def demand(experiment: ExperimentView) -> None:
         drive = _drive(experiment)
@@ -182,7 +183,7 @@ def follow_the_odometry(topic: TopicContract, tree: TreeContract) -> Demand[Expe
     return demand
 
 
-def _other_stamp(drive: DriveSeen) -> faults.OtherStamp:
+def _other_stamp(drive: FramesDriveSeen) -> faults.OtherStamp:
     stamps = {each.stamp for each in drive.body}
     return "zero" if "zero" in stamps else "now" if "other" in stamps else "none"
 
@@ -221,11 +222,11 @@ def have_a_point_for_each(topic: TopicContract) -> Demand[ExperimentView]:
     return demand
 
 
-def _answers(drive: DriveSeen, parts: Sequence[Part]) -> list[tuple[int, WallsSeen]]:
+def _answers(drive: FramesDriveSeen, parts: Sequence[Part]) -> list[tuple[int, WallsSeen]]:
     """How many distances the scan had, and the points that were said of it."""
     found = [each for each in drive.walls if each.stamp == "own" and each.part in parts]
     if not found:
-        raise NoDrive("no_walls")
+        raise NoDriveTold("no_walls")
     return [(each.distances, each) for each in found]
 
 
@@ -236,7 +237,7 @@ def lie_on_walls(tree: TreeContract, part: faults.MovingPart) -> Demand[Experime
     def demand(experiment: ExperimentView) -> None:
         said = [each for _, each in _answers(_drive(experiment), (part,))]
         beside = [each for each in said if each.off_m > limit_m]
-        if len(beside) > MOST_BESIDE * len(said):
+        if len(beside) > MOST_BESIDE[part] * len(said):
             names = [each.like for each in beside]
             worst = max(each.off_m for each in beside)
             likely = max(set(names), key=names.count)
@@ -264,7 +265,7 @@ def _map(experiment: ExperimentView) -> MapSeen:
     """Raises NothingToJudge where none came."""
     found = _drive(experiment).map
     if found is None:
-        raise NoDrive("no_map")
+        raise NoDriveTold("no_map")
     return found
 
 

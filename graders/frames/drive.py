@@ -49,7 +49,7 @@ LATE_S = 0.07
 
 
 @dataclass(frozen=True)
-class Mount:
+class LaserMount:
     """Where a laser sits on its rover."""
 
     x_m: float = 0.0
@@ -102,7 +102,7 @@ class Drive:
     """All that a node is told, in the order in which it is told."""
 
     room: SeededRoom
-    mount: Mount
+    mount: LaserMount
     first_beam_rad: float
     way: tuple[Stretch, ...]
     scans: tuple[Scan, ...] = field(default=())
@@ -153,7 +153,7 @@ def _comes_s(told: Odometry | Scan) -> float:
     return told.comes_s if isinstance(told, Scan) else told.at_s
 
 
-def drive_in(seed: int, mount: Mount) -> Drive:
+def drive_in(seed: int, mount: LaserMount) -> Drive:
     """One that nobody knows, in a room where its way is free."""
     chance = Chance(f"frames 1: {seed}")
     while True:

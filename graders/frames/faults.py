@@ -18,7 +18,7 @@ UnknownPart = Literal["before", "after"]
 
 
 @dataclass(frozen=True)
-class Step(SentencePart):
+class TreeStep(SentencePart):
     """One step of the tree."""
 
     parent: str
@@ -41,8 +41,8 @@ class StepMissing(Fault):
     """A step of the tree is told by nobody."""
 
     topic: str
-    step: Step
-    found: tuple[Step | Nowhere, ...]
+    step: TreeStep
+    found: tuple[TreeStep | Nowhere, ...]
     slip: StepSlip
     why = "A chain of steps leads from the walls to the room. Where one is missing, none is there."
     expected = "{topic} says the step {step}: the parent in header.frame_id, the child behind it"
@@ -93,7 +93,7 @@ class TwoParents(Fault):
 class NoQuaternion(Fault):
     """Four numbers that are no rotation."""
 
-    step: Step
+    step: TreeStep
     length: float
     was_seen = True
     why = "A rotation is told by four numbers whose squares add up to 1. Others mean nothing."
@@ -107,7 +107,7 @@ class NoQuaternion(Fault):
 class LaserElsewhere(Fault):
     """The laser is not where the parameters say."""
 
-    step: Step
+    step: TreeStep
     wanted: tuple[str, ...]
     found: tuple[str, ...]
     slip: LaserSlip
@@ -135,7 +135,7 @@ class NothingLatched(Fault):
     """Who comes late hears nothing of the laser."""
 
     topic: str
-    step: Step
+    step: TreeStep
     why = "The laser never moves, so its place is said once. RViz may be started an hour later."
     expected = "who subscribes late to {topic} gets {step}, also before any odometry came"
     measured = "nothing came"
@@ -160,7 +160,7 @@ class StepsMissing(Fault):
     """Not every odometry leads to a step."""
 
     topic: str
-    step: Step
+    step: TreeStep
     wanted: int
     found: int
     other: OtherStamp
@@ -190,7 +190,7 @@ class StepsMissing(Fault):
 class BodyElsewhere(Fault):
     """The rover is said to be elsewhere."""
 
-    step: Step
+    step: TreeStep
     off_m: float
     off_rad: float
     slip: BodySlip

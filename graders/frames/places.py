@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from graders.frames.drive import Drive, Mount, Numbers, Scan, beams_rad
+from graders.frames.drive import Drive, LaserMount, Numbers, Scan, beams_rad
 from graders.frames.record import WayWrong
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.models.shape_arrays import gaps
@@ -64,7 +64,10 @@ def _ways(drive: Drive, scan: Scan) -> Iterator[tuple[WayWrong, Numbers]]:
     body = drive.body_at(scan.at_s)
     yield "beam_angles", points_of(drive, scan, scan.laser, first_beam_rad=0.0)
     yield "mount", points_of(drive, scan, body)
-    for guess in (Mount(drive.mount.x_m, drive.mount.y_m), Mount(yaw_rad=drive.mount.yaw_rad)):
+    for guess in (
+        LaserMount(drive.mount.x_m, drive.mount.y_m),
+        LaserMount(yaw_rad=drive.mount.yaw_rad),
+    ):
         yield "mount", points_of(drive, scan, guess.on(body))
     unturned = Pose(scan.laser.x_m, scan.laser.y_m)
     yield "heading", points_of(drive, scan, unturned)

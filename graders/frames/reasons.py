@@ -10,7 +10,7 @@ from roslings.judge.faults.sentences import one_of
 
 
 @dataclass(eq=False)
-class NoDrive(NothingToJudge):
+class NoDriveTold(NothingToJudge):
     """The node could not be told of a drive."""
 
     what: Literal["not_told", "no_walls", "no_map"]

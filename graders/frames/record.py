@@ -91,7 +91,7 @@ class MapSeen(Record):
     like: MapSlip = ""
 
 
-class DriveSeen(Record):
+class FramesDriveSeen(Record):
     """A rover in a room, of which the node was told."""
 
     seed: int
@@ -115,5 +115,5 @@ class FramesSeen(PartSeen):
     FOR_READERS: ClassVar[tuple[str, ...]] = ("shown",)
 
     steps: Columns[StepSeen] = Field(default_factory=list)
-    drive: DriveSeen | None = None
+    drive: FramesDriveSeen | None = None
     shown: str = Field(default="", description="The middle of the map: one letter a cell")

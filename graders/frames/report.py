@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from graders.frames.record import DriveSeen, FramesSeen
+from graders.frames.record import FramesDriveSeen, FramesSeen
 from ros2_on_pip.language import Text, said
 from ros2_on_pip.markup import Markup, tag
 from roslings.evidence import Evidence
@@ -36,7 +36,7 @@ def sections(evidence: Evidence) -> Iterator[Markup]:
         yield tag("section", tag("h2", title), *(_figure(*each) for each in drives))
 
 
-def _figure(drive: DriveSeen, shown: str) -> Markup:
+def _figure(drive: FramesDriveSeen, shown: str) -> Markup:
     title = said(
         "page.frames.room",
         "room {seed}, the laser at {x} m, {y} m, turned by {yaw} rad",
@@ -53,7 +53,7 @@ def _figure(drive: DriveSeen, shown: str) -> Markup:
     return tag("figure", *parts)
 
 
-def _row(drive: DriveSeen, part: str, name: str) -> tuple[str, str, str, str]:
+def _row(drive: FramesDriveSeen, part: str, name: str) -> tuple[str, str, str, str]:
     scans = [scan for scan in drive.scans if scan.part == part]
     off_m = [walls.off_m for walls in drive.walls if walls.part == part and walls.points]
     mean = f"{sum(off_m) / len(off_m):.3f} m" if off_m else "-"

@@ -181,13 +181,13 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "wander:Wander.decide": {9: ("",)},
     },
     "frames": {
-        "frames:CELL": {8: ("",)},
-        "frames:WEST": {8: ("",)},
-        "frames:MOST": {7: ("",)},
-        "frames:LATC": {8: ("",)},
-        "frames:Frames.__init__": {8: ("self.cells", "self.map", "self.create_timer"), 4: ("",)},
-        "frames:Frames.hear": {7: ("self.waiting",), 6: ("",)},
-        "frames:Frames.place": {8: (INSIDE + "self.draw",), 7: ("",)},
+        "frames:CELL": {11: ("",)},
+        "frames:WEST": {11: ("",)},
+        "frames:MOST": {8: ("",)},
+        "frames:LATC": {11: ("",)},
+        "frames:Frames.__init__": {12: ("self.cells", "self.map", "self.create_timer"), 4: ("",)},
+        "frames:Frames.hear": {10: ("self.waiting",), 6: ("",)},
+        "frames:Frames.place": {13: (INSIDE + "self.draw",), 9: ("",)},
     },
 }
 

@@ -6,28 +6,30 @@ Each mistake of a beginner is made here by hand, and must be told from the other
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-from graders.frames.cells import MapSlip, measured, truth_of
+from graders.frames.cells import measured, truth_of
 from graders.frames.drive import (
     FREE_M,
     NO_DISTANCES,
     ODOMETRY_EVERY_S,
     Drive,
-    Mount,
+    LaserMount,
     Numbers,
     Odometry,
     Scan,
     drive_in,
 )
 from graders.frames.places import mistake_in, off_the_walls_m, points_of
-from graders.frames.record import MapSeen, WayWrong
+from graders.frames.record import MapSeen, MapSlip, WayWrong
 from roslings_rover.models.differential_drive import Pose
 
 SEEDS = (1, 2, 3)
-MOUNT = Mount(0.12, -0.07, 1.9)
+MOUNT = LaserMount(0.12, -0.07, 1.9)
 CELL_M, CELLS, CORNER_M = 0.05, 240, -6.0
 KNOWN = ("standing", "moving")
 
@@ -70,11 +72,11 @@ def test_a_scan_lies_between_two_odometries(drive: Drive) -> None:
         assert min(abs(scan.at_s - at_s) for at_s in odometry) > 0.01
     told = drive.told
     early = late = 0
-    for place, scan in enumerate(told):
-        if isinstance(scan, Scan) and scan.part in KNOWN:
-            before = [each.at_s for each in told[:place] if isinstance(each, Odometry)]
-            early += before[-1] < scan.at_s
-            late += before[-1] > scan.at_s
+    for place, each in enumerate(told):
+        if isinstance(each, Scan) and each.part in KNOWN:
+            before = [said.at_s for said in told[:place] if isinstance(said, Odometry)]
+            early += before[-1] < each.at_s
+            late += before[-1] > each.at_s
     assert min(early, late) > 10
     assert {scan.part for scan in drive.scans} == {"before", "after", *KNOWN}
 
@@ -148,7 +150,7 @@ def test_wrong_points_are_off(drive: Drive) -> None:
 # --- the map -----------------------------------------------------------------------------------
 
 
-def cells_of(points: Numbers, cut: bool = False) -> tuple[Numbers, Numbers]:
+def cells_of(points: Numbers, cut: bool = False) -> tuple[NDArray[Any], NDArray[Any]]:
     """Rows and columns; `cut` as int() does it, on both sides of 0."""
     if cut:
         found = np.trunc(points / CELL_M) + CELLS // 2
@@ -158,7 +160,7 @@ def cells_of(points: Numbers, cut: bool = False) -> tuple[Numbers, Numbers]:
     return whole[:, 1], whole[:, 0]
 
 
-def drawn(drive: Drive, cut: bool = False) -> Numbers:
+def drawn(drive: Drive, cut: bool = False) -> NDArray[np.int8]:
     """The map of a drive, as a student draws it."""
     grid = np.full((CELLS, CELLS), -1, np.int8)
     for scan in drive.scans:
@@ -173,7 +175,7 @@ def drawn(drive: Drive, cut: bool = False) -> Numbers:
     return grid
 
 
-def seen_of(drive: Drive, grid: Numbers, corner_m: float = CORNER_M) -> MapSeen:
+def seen_of(drive: Drive, grid: NDArray[np.int8], corner_m: float = CORNER_M) -> MapSeen:
     """What is measured of it."""
     plain = MapSeen(
         frame="odom",
@@ -186,7 +188,7 @@ def seen_of(drive: Drive, grid: Numbers, corner_m: float = CORNER_M) -> MapSeen:
         yaw_rad=0.0,
         values=[-1, 0, 100],
     )
-    found, shown = measured(drive, plain, grid.astype(np.int8).ravel())
+    found, shown = measured(drive, plain, grid.ravel())
     assert "#" in shown or not (grid == 100).any()
     return found
 
@@ -231,7 +233,7 @@ def test_a_small_map_is_judged_by_what_it_has(drive: Drive) -> None:
         yaw_rad=0.0,
         values=[-1, 0, 100],
     )
-    seen, _ = measured(drive, plain, grid.astype(np.int8).ravel())
+    seen, _ = measured(drive, plain, grid.ravel())
     assert seen.walls < 0.8
     assert seen.unknown == 1.0
 
