@@ -29,7 +29,7 @@ class NoScans(NotebookTrouble):
         super().__init__("There is no scan to draw. Give some: ros.collect('/scan', count=6)")
 
 
-class OtherCount(NotebookTrouble):
+class PlacesMissing(NotebookTrouble):
     """Each scan was measured somewhere."""
 
     def __init__(self, scans: int, places: int) -> None:
@@ -49,17 +49,17 @@ def show_scans(scans: Sequence[Any], places: Sequence[Any] = ()) -> None:
     """Show the points of several sensor_msgs/LaserScan, each scan in a colour of its own.
 
     They lie as if the laser had not moved. `places` are TransformStamped, one for each scan: where
-    the laser was. Then a second picture shows the points there. Raises NoScans and OtherCount.
+    the laser was. Then a second picture shows the points there. Raises NoScans and PlacesMissing.
     """
     show(scans_picture(scans, places))
 
 
 def scans_picture(scans: Sequence[Any], places: Sequence[Any] = ()) -> NotebookPicture:
-    """The picture that `show_scans` shows. Raises NoScans and OtherCount."""
+    """The picture that `show_scans` shows. Raises NoScans and PlacesMissing."""
     if not scans:
         raise NoScans
     if places and len(places) != len(scans):
-        raise OtherCount(len(scans), len(places))
+        raise PlacesMissing(len(scans), len(places))
     alone = [list(points_of(scan)) for scan in scans]
     drawn = {"by the laser's numbers alone": alone}
     if places:
