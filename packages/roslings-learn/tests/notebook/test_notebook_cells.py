@@ -139,6 +139,43 @@ with session() as ros:
     assert drawn[2].startswith(b"\x89PNG")
 
 
+def test_scans_are_drawn_twice_and_a_map_once(cells: Kernel) -> None:
+    """By their own numbers, and from where they were measured: a beam ahead is then on the left."""
+    ran = cells.run("""
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import OccupancyGrid
+from sensor_msgs.msg import LaserScan
+
+scan = LaserScan(angle_increment=1.0, range_min=0.1, range_max=6.0)
+scan.ranges = [2.0, float("inf"), float("nan"), 7.0]
+place = TransformStamped()
+place.header.frame_id = "odom"
+place.transform.translation.x = 1.0
+place.transform.rotation.z = place.transform.rotation.w = 0.5**0.5
+show_scans([scan])
+show_scans([scan, scan], [place, place])
+grid = OccupancyGrid(data=[100, 0, -1, -1, 0, 60])
+grid.info.width, grid.info.height, grid.info.resolution = 3, 2, 0.05
+show_grid(grid)
+""")
+    assert ran.error == "", ran
+    alone, twice, cells_of_map = map(alt_of, ran.shown)
+    assert alone.endswith("By the laser's numbers alone: x from 2.0 to 2.0, y from 0.0 to 0.0.")
+    assert twice.startswith("The points of 2 scans from above, in metres.")
+    assert "In the frame odom: x from 1.0 to 1.0, y from 2.0 to 2.0." in twice
+    assert "2 rows and 3 columns: 2 cells are occupied, 2 free and 2 unknown" in cells_of_map
+    assert all(content_of(shown).startswith(b"\x89PNG") for shown in ran.shown)
+
+
+def test_what_cannot_be_drawn_is_told(cells: Kernel) -> None:
+    """No scan, a place too few, a map with too few cells, a scan that has seen nothing."""
+    cells.run("from nav_msgs.msg import OccupancyGrid\nfrom sensor_msgs.msg import LaserScan")
+    assert "There is no scan" in cells.run("show_scans([])").said
+    assert "2 scans need 2 places" in cells.run("show_scans([LaserScan()] * 2, [1])").said
+    assert "it has 0" in cells.run("show_grid(OccupancyGrid())").said
+    assert "nothing is seen" in alt_of(cells.run("show_scans([LaserScan()])").shown[0])
+
+
 @needs("module tf2_msgs")
 def test_a_rovers_odometry_may_drift(cells: Kernel) -> None:
     """Its pose stays the truth, and its frames say what leads there."""
