@@ -43,6 +43,7 @@ from graders.frames.record import (
     StepSeen,
     WallsSeen,
 )
+from ros2_on_pip.near_names import nearest
 from roslings.course import NodeContract, TopicContract
 from roslings.evidence import Endpoint
 from roslings.experiment.missed import hears, says
@@ -242,7 +243,8 @@ class DriveTeller:
 
     def tell_all(self) -> bool:
         """The whole drive; whether its callbacks kept up."""
-        with self._scene.probe.barrier([self._node.node]) as barrier:
+        near = nearest(self._node.node, self._scene.seen.graph.nodes)
+        with self._scene.probe.barrier([near.found if near else self._node.node]) as barrier:
             # What is announced comes in its order. So a node that answers knows the publishers that
             # were made before, and nothing of the drive is lost on the way.
             there = self._scene.until(lambda: barrier.ready, FIRST_MESSAGE_WITHIN_S)
