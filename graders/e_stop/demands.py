@@ -149,9 +149,18 @@ def _judge_drive(
         if any(move.fields for move in moves[len(moves) // 2 :]):
             raise faults.OtherCommand(*words, fields_told(moves[-1].fields))
         raise (faults.DoesNotGoOn if again else faults.StandsStill)(*words)
+    for move in moves[:first]:
+        if _is_partly(move.fields, seen.command):
+            raise faults.OtherCommand(*words, fields_told(move.fields))
     for move in moves[first:]:
         if move.fields not in ({}, seen.command):
             raise faults.OtherCommand(*words, fields_told(move.fields))
+
+
+def _is_partly(told: Mapping[str, float], command: Mapping[str, float]) -> bool:
+    """It is of two commands: some fields are of the new one, which nobody could know before."""
+    new = sum(told.get(name) == value for name, value in command.items())
+    return 0 < new < len(command)
 
 
 def _judge_steadiness(

@@ -153,6 +153,28 @@ def test_a_guard_passes_on_what_the_operator_wants(
     assert found(DRIVES, driven(seen)) is fault
 
 
+BEFORE, MIXED = {"linear.x": -0.3, "angular.z": -0.2}, {"linear.x": 0.5, "angular.z": -0.2}
+BOTH = {"linear.x": 0.5, "angular.z": 0.1}
+
+
+@pytest.mark.parametrize(
+    ("between", "fault"),
+    [
+        ([], None),
+        ([(1.1, 1.15, BEFORE)], None),
+        ([(1.1, 1.15, MIXED)], faults.OtherCommand),
+        ([(1.1, 1.15, {"linear.x": 0.5})], faults.OtherCommand),
+    ],
+)
+def test_no_message_is_of_two_commands(between: Any, fault: type[Exception] | None) -> None:
+    """The command before may last a moment, but whole: no field of it stays for a message."""
+    seen = moves((1, 1.1, BEFORE), *between, (1.2, 3, BOTH))
+    experiment = driven(seen)
+    drives = experiment.seen.part(EStopSeen).drives
+    drives[0] = drives[0].model_copy(update={"command": BOTH})
+    assert found(DRIVES, experiment) is fault
+
+
 def test_across_a_bad_link_a_short_stop_is_no_fault() -> None:
     """A sign of life may be lost; to stand for ever is one all the same."""
     demand = demands.drive(MOTORS, "a", deadline_s=0.4, steadily=False, again=True)
