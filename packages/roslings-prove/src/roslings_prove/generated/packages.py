@@ -72,10 +72,12 @@ class GeneratedPackage(Generic[W]):
 
 
 def fate_of(result: GradingResult | None) -> Fate:
-    """Killed by a check that fails, and by nothing else."""
-    if result is None or result.state != "graded":
+    """Killed by a check that fails, and by nothing else; others may have told nothing."""
+    if result is None or result.state != "graded" or result.verdict is None:
         return Fate.UNCLEAR
-    return {"fail": Fate.KILLED, "pass": Fate.SURVIVED}.get(result.word, Fate.UNCLEAR)
+    if any(check.outcome == "fail" for check in result.verdict.checks):
+        return Fate.KILLED
+    return Fate.SURVIVED if result.word == "pass" else Fate.UNCLEAR
 
 
 @cache
