@@ -121,6 +121,28 @@ def test_each_call_is_told_once(said: Any, fault: type[Exception] | None) -> Non
     assert found(demands.tell_each_press(BELL, DOOR), rung(*said)) is fault
 
 
+@pytest.mark.parametrize(
+    ("said_s", "fault"),
+    [
+        ((1.1, 2.1), None),
+        ((1.25, 2.25), None),
+        ((1.45, 2.1), None),
+        ((1.45, 2.42), faults.ToldLate),
+    ],
+)
+def test_a_press_is_told_at_once(said_s: Any, fault: type[Exception] | None) -> None:
+    """At 1.1 s and at 2.1 s it is answered; a busy computer may hold up one of two messages."""
+    seen = rung(*((at_s, True) for at_s in said_s))
+    times = [(S, S + S // 10), (2 * S, 2 * S + S // 10)]
+    calls = seen.seen.part(ServicesSeen).calls
+    calls[:] = [
+        call.model_copy(update={"sent_ns": sent, "answered_ns": answered})
+        for call, (sent, answered) in zip(calls, times, strict=True)
+    ]
+    bell = BELL.model_copy(update={"within_s": 0.2})
+    assert found(demands.tell_at_once(bell, DOOR), seen) is fault
+
+
 # --- a guard -----------------------------------------------------------------------------------
 
 
