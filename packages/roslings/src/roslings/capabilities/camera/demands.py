@@ -161,12 +161,8 @@ def follow_brightness(
         for before, after in pairwise(lit):
             if not all(_is_lit(each, neutral, levels) for each in (before, after)):
                 raise _brightness_fault(parameter.name, before, after, neutral, levels)
-        for each in lit:
-            if not _is_lit(each, neutral, levels, within_points=ONE_POINT / 2):
-                wanted, found = (each.value - neutral) * levels, each.lighter
-                raise faults.BrightnessIgnored(
-                    parameter.name, int(neutral), each.value, wanted, found
-                )
+        for seen in lit:
+            _require_each_point(parameter.name, seen, neutral, levels)
 
     return demand
 
@@ -216,6 +212,13 @@ def _lit(
 def _is_lit(lit: Lit, neutral: float, levels: float, within_points: float = 2.0) -> bool:
     wanted, within = (lit.value - neutral) * levels, within_points * levels
     return all(_fits(each) and abs(each.lighter - wanted) < within for each in lit.pixels)
+
+
+def _require_each_point(name: str, lit: Lit, neutral: float, levels: float) -> None:
+    """Also a change by one point acts. Raises BrightnessIgnored."""
+    if not _is_lit(lit, neutral, levels, within_points=ONE_POINT / 2):
+        wanted = (lit.value - neutral) * levels
+        raise faults.BrightnessIgnored(name, int(neutral), lit.value, wanted, lit.lighter)
 
 
 def _went_round(seen: PixelsSeen) -> bool:
