@@ -33,8 +33,8 @@ AFTER_A_CHANGE = 4
 
 
 ONE_POINT = 1.0
-"""The smallest change of a brightness. A picture is told to be as light as the one that it comes
-nearest to, of those that were expected: half a point beside it is another one."""
+"""The smallest change of a brightness. Of the lights that were expected, a picture has the one that
+it comes nearest to. So half a point beside it is another one."""
 
 
 # --- what each message says of itself ----------------------------------------------------------
