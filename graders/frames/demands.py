@@ -34,8 +34,8 @@ MOST_LOST = 0.05
 """So many messages of a drive may find no answer, whatever the reason is."""
 
 MOST_BESIDE: dict[faults.MovingPart, float] = {"standing": 0.25, "moving": 0.1}
-"""So many scans of a part may be off. The first one after a turn counts as standing, and who takes
-it a little too early is told so by the part in which the rover moves."""
+"""So many scans of a part may be off. The first one after a turn counts as standing. Who takes it a
+little too early is told so by the part in which the rover moves."""
 
 KNOWN: tuple[Part, ...] = ("standing", "moving")
 VALUES = {-1, 0, 100}
