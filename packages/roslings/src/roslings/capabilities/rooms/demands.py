@@ -1,7 +1,7 @@
 """Demands on drives through rooms. What was driven in real time is judged with bands.
 
-Points are no matter of all or nothing here. Who does well in two of three rooms keeps a share, and so
-does who is a little off the wall.
+Points are no matter of all or nothing here. Who does well in two of three rooms keeps a share,
+and so does who is a little off the wall.
 """
 
 from __future__ import annotations
