@@ -16,6 +16,7 @@ from roslings.capabilities.topics.relay import (
     answer_each_once,
     carry_its_time,
     hold_its_fields,
+    leave_at_zero,
     show,
     show_at_first,
     write_each,
@@ -219,7 +220,7 @@ def test_rate(sensing: ExperimentView) -> None:
 @check(needs=["sensor_runs"])
 def test_fields(sensing: ExperimentView) -> None:
     """Each message says whose it is, and what the sensor can measure."""
-    sensing.topic(DISTANCE).must(hold_its_fields)
+    sensing.topic(DISTANCE).must(hold_its_fields, leave_at_zero(MEASURED.name, *DISTANCE.fields))
 
 
 @check(needs=["sensor_runs"])

@@ -11,6 +11,7 @@ from graders.pi_camera.demands import (
     answer_nothing,
     answer_once,
     begin_with_the_hue,
+    call_none_bad,
     carry_the_header,
     cut_its_rows,
     draw_on_each,
@@ -415,7 +416,7 @@ def test_encodings(looking: ExperimentView) -> None:
 @check(needs=["ball"])
 def test_rows(looking: ExperimentView) -> None:
     """It reads pictures of any size, also with idle bytes in their rows."""
-    looking.must(cut_its_rows(SCREEN, "rows"))
+    looking.must(cut_its_rows(SCREEN, "rows"), call_none_bad(SCREEN, "ball", "rows"))
 
 
 @check(needs=["finder_runs"])

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
 from graders.e_stop import faults
 from graders.e_stop.contract import StopContract
 from graders.e_stop.reasons import LateCommand, NotWatched
-from graders.e_stop.record import DriveSeen, EStopSeen, HostsSeen, MoveSeen, StopSeen
+from graders.e_stop.record import (
+    DriveSeen,
+    EStopSeen,
+    HostsSeen,
+    MoveSeen,
+    PressSeen,
+    StopSeen,
+)
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.qos.demands import values_told
 from roslings.capabilities.services.contract import ServiceContract
@@ -69,6 +76,35 @@ def tell_each_press(service: ServiceContract, topic: TopicContract) -> Demand[Ex
             raise faults.SaysMore(topic.topic, most, len(messages))
 
     return demand
+
+
+def tell_at_once(service: ServiceContract, topic: TopicContract) -> Demand[ExperimentView]:
+    """What a call leads to is said within the service's time after the answer.
+
+    The quickest of all calls is judged: a busy computer holds up some, a button that waits is late
+    with each.
+    """
+    within_s = written(service.within_s, service.service)
+
+    def demand(experiment: ExperimentView) -> None:
+        presses = experiment.seen.part(EStopSeen).presses
+        late_s = [late for each in presses for late in _told_after_s(experiment, topic, each)]
+        if late_s and min(late_s) > within_s:
+            require_steady(experiment.seen.stall_s)
+            raise faults.ToldLate(topic.topic, service.service, within_s, min(late_s))
+
+    return demand
+
+
+def _told_after_s(
+    experiment: ExperimentView, topic: TopicContract, press: PressSeen
+) -> Iterator[float]:
+    """From the answer to the message; below 0 where the message came first."""
+    inside = range(press.began_ns, press.until_ns + 1)
+    came_ns = [m.arrival_ns for m in experiment.topic(topic).messages if m.arrival_ns in inside]
+    for call in experiment.seen.part(ServicesSeen).calls:
+        if call.sent_ns in inside and call.answered_ns and came_ns:
+            yield (came_ns[0] - call.answered_ns) / NS_PER_S
 
 
 # --- a guard -----------------------------------------------------------------------------------
@@ -149,9 +185,18 @@ def _judge_drive(
         if any(move.fields for move in moves[len(moves) // 2 :]):
             raise faults.OtherCommand(*words, fields_told(moves[-1].fields))
         raise (faults.DoesNotGoOn if again else faults.StandsStill)(*words)
+    for move in moves[:first]:
+        if _is_partly(move.fields, seen.command):
+            raise faults.OtherCommand(*words, fields_told(move.fields))
     for move in moves[first:]:
         if move.fields not in ({}, seen.command):
             raise faults.OtherCommand(*words, fields_told(move.fields))
+
+
+def _is_partly(told: Mapping[str, float], command: Mapping[str, float]) -> bool:
+    """It is of two commands: some fields are of the new one, which nobody could know before."""
+    new = sum(told.get(name) == value for name, value in command.items())
+    return 0 < new < len(command)
 
 
 def _judge_steadiness(

@@ -107,6 +107,21 @@ class SaysMore(Fault):
     hint = "Is there a timer that publishes? A latched topic needs none."
 
 
+@dataclass(eq=False)
+class ToldLate(Fault):
+    """Each press is told, and some time after it was answered."""
+
+    topic: str
+    service: str
+    within_s: float
+    found_s: float
+    why = "Who presses the stop has no time to wait. The answer says that it is pressed already."
+    expected = "within {within_s:g} s of the answer of {service}, {topic} says what it was asked"
+    measured = "it says so {found_s:.2f} s after the answer"
+    hint = "What happens between the call and the line that publishes?"
+    mend = "Publish in the function of the service, before it returns: no timer and no sleep."
+
+
 # --- a guard -----------------------------------------------------------------------------------
 
 

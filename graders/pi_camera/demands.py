@@ -435,6 +435,19 @@ def tell_once(screen: Screen, parts: Sequence[str]) -> Demand[ExperimentView]:
     return demand
 
 
+def call_none_bad(screen: Screen, *parts: str) -> Demand[ExperimentView]:
+    """No line calls a picture of these parts bad: they are as they should be."""
+    line = written(screen.node.log, screen.node.node).partition("{text}")[0]
+
+    def demand(experiment: ExperimentView) -> None:
+        process = experiment.process(screen.node)
+        for look in _looks(experiment, screen, parts):
+            if lines := _lines_meanwhile(process, look.shown, line):
+                raise faults.CalledBad(look.words, lines[0].plain)
+
+    return demand
+
+
 def _lines_meanwhile(process: ProcessView, shown: PictureShown, begin: str) -> list[LogLine]:
     """The lines that begin so and came while a picture was shown."""
     return [

@@ -380,6 +380,19 @@ class WrongDrawing(Fault):
 
 
 @dataclass(eq=False)
+class CalledBad(Fault):
+    """A good picture, and a line that it is bad."""
+
+    picture: Text
+    line: str
+    why = "The size of a picture may be another one each time. Who reads this blames the camera."
+    expected = "{picture}: no line in the log"
+    measured = "it wrote {line!r}"
+    hint = "From which message are the numbers that you compare with its bytes?"
+    mend = "Read width, height, step and data of the same message, each time."
+
+
+@dataclass(eq=False)
 class SilentAboutPicture(Fault):
     """A bad picture, and no word about it."""
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rover import COLOURS, PARTS, ball, button, flag, floor, grown, laptop, placed, rover, waves
-from sheet import AMBER, BLACK, GREEN, RED, Sheet
+from sheet import AMBER, BLACK, GREEN, RED, Point, Sheet
 
 MIDDLE = (190.0, 140.0)
 HEIGHT = 280
@@ -117,6 +117,13 @@ DAYS: dict[str, Shown] = {
             _boxed("a room", "nobody has seen it before"),
         ),
     ),
+    "12-frames": Shown(
+        "frames, and a map",
+        (
+            Row("/frames", "says /tf, and puts the walls into odom"),
+            _boxed("/map", "where walls are, and where is none"),
+        ),
+    ),
 }
 """In the order of the path."""
 
@@ -130,6 +137,7 @@ def drawing(day: str) -> Sheet:
     sheet.add(floor(14, 14, 352, HEIGHT - 28))
     sheet.add(*_around(number))
     sheet.add(placed(*MIDDLE, grown(number, COLOURS["red" if number == 8 else "rover"])))
+    sheet.add(*_over(number))
     _mark(sheet, number)
     sheet.text((LEFT, 44), f"Day {number}", anchor="start", size=16, colour=GREEN, bold=True)
     sheet.text((LEFT + 76, 44), f"brings {shown.brings}", anchor="start", size=16)
@@ -171,7 +179,26 @@ def _around(day: int) -> list[str]:
             ' stroke-width="3" stroke-dasharray="6 6" marker-end="url(#a)"/>',
         ],
         11: [placed(x + 37, y, _beams(122))],
+        12: [_axes((40, 240), 52, "odom")],
     }.get(day, [])
+
+
+def _axes(middle: Point, length: float, name: str) -> str:
+    """Of a frame: x to the right, y up, its name at the end of y."""
+    (x, y), half = middle, length * 0.75
+    ways = "".join(
+        f'<path d="M{x:g} {y:g}{way}" stroke="{colour}" stroke-width="4" marker-end="url(#a)"/>'
+        for way, colour in ((f"h{length:g}", RED), (f"v{-half:g}", GREEN))
+    )
+    return (
+        f'{ways}<text x="{x + 12:g}" y="{y - half + 8:g}" font-size="16" fill="#111">{name}</text>'
+    )
+
+
+def _over(day: int) -> list[str]:
+    """What lies over the rover."""
+    x, y = MIDDLE
+    return [_axes((x, y), 128, "base_link")] if day == 12 else []
 
 
 def _beams(length: float) -> str:

@@ -421,6 +421,47 @@ def wander() -> Sheet:
     return sheet
 
 
+def frames() -> Sheet:
+    """It turns, its beams turn with it, and the points stay on the wall."""
+    sheet = _room(
+        "A rover turns, and the points of its laser stay on the walls",
+        "A rover stands before a wall and turns. Its axes, base_link, turn with it, and so do the"
+        " beams of its laser. The points where they end stay on the wall: they are numbers in"
+        " odom, whose axes stand in the corner.",
+    )
+    beams = "".join(
+        f'<path d="M0 0L{x} {y}" stroke="{AMBER}" stroke-width="2"/>'
+        for x, y in ((-55, -118), (-23, -128), (23, -128), (55, -118))
+    )
+    sheet.add(placed(340, 160, beams, name="beams"))
+    sheet.add(f'<rect x="24" y="22" width="672" height="32" fill="{GREY}"/>')
+    for x in range(250, 440, 20):
+        sheet.add(f'<circle cx="{x}" cy="55" r="4" fill="{RED}"/>')
+    sheet.arrow((60, 186), (130, 186), colour=GREEN)
+    sheet.arrow((60, 186), (60, 116), colour=GREEN)
+    sheet.text((104, 174), "odom", size=15)
+    sheet.add(placed(340, 160, rover(scale=1.4), turned=-90, name="turn"))
+    sheet.text((440, 186), "base_link", size=15)
+    sheet.text((560, 84), "/walls", size=15)
+    sheet.text((560, 130), "/odom and /scan in", size=15)
+    sheet.moves(
+        _moved(
+            "beams",
+            6,
+            "0%, 100% { transform: rotate(-10deg) } 50% { transform: rotate(10deg) }",
+            rests="none",
+        )
+        + " "
+        + _moved(
+            "turn",
+            6,
+            "0%, 100% { transform: rotate(-10deg) } 50% { transform: rotate(10deg) }",
+            rests="none",
+        )
+    )
+    return sheet
+
+
 def _line(start: float, y: float, end: float) -> str:
     """The way that it goes."""
     return (
@@ -441,6 +482,7 @@ DRAWN: dict[str, Callable[[], Sheet]] = {
     "black-box": black_box,
     "e-stop": e_stop,
     "wander": wander,
+    "frames": frames,
 }
 """Lab to what draws it."""
 

@@ -136,8 +136,16 @@ def test_a_cell_shows_what_is_claimed(claim: Claim, shared_folder: Path) -> None
 
 
 def written(cell: Any) -> str:
-    """All that a cell has printed."""
-    return "".join(out.get("text", "") for out in cell.outputs)
+    """All that a cell has printed, the words of its pictures, and its error."""
+    return "".join(words_of(out) for out in cell.outputs)
+
+
+def words_of(out: Any) -> str:
+    """Of one output of a cell."""
+    if out.output_type == "error":
+        return f"{out.ename}: {out.evalue}\n"
+    shown = out.get("data", {}).get("text/plain")
+    return f"{shown}\n" if shown else str(out.get("text", ""))
 
 
 @pytest.mark.slow

@@ -180,6 +180,15 @@ DONE_BY: dict[str, dict[str, Words]] = {
         "wander:Wander.look": {8: ("",)},
         "wander:Wander.decide": {9: ("",)},
     },
+    "frames": {
+        "frames:CELL": {11: ("",)},
+        "frames:WEST": {11: ("",)},
+        "frames:MOST": {8: ("",)},
+        "frames:LATC": {11: ("",)},
+        "frames:Frames.__init__": {12: ("self.cells", "self.map", "self.create_timer"), 4: ("",)},
+        "frames:Frames.hear": {10: ("self.waiting",), 6: ("",)},
+        "frames:Frames.place": {13: (INSIDE + "self.draw",), 9: ("",)},
+    },
 }
 
 

@@ -116,6 +116,7 @@ NODES = {
     },
     "black-box": set(),
     "wander": {"runs", "name"},
+    "frames": {"runs", "name"},
 }
 """Lab to the checks that nodes pass which are there, and do nothing."""
 ALSO = {

@@ -22,6 +22,7 @@ from sources import ROOT
 
 PAGE = (ROOT / "site/pages/reference/tf-and-scan.md").read_text("utf-8")
 IN_A_NODE = PAGE.partition("## In a node")[2].partition("\n## ")[0]
+LASER_HEIGHT_M = 0.15
 MANY = 300
 """Turns of the robot; only a test that fails takes them all."""
 TURN_NS, STEP_NS, SCAN_NS = 100_000_000, 50_000_000, 25_000_000
@@ -76,6 +77,11 @@ def test_the_node_of_the_page_finds_each_scan(context: Any) -> None:
     executor.add_node(node)
     executor.add_node(robot)
     broadcaster = tf2_ros.TransformBroadcaster(robot)
+    mounted = TransformStamped(child_frame_id="laser")
+    mounted.header.frame_id, mounted.transform.rotation.w = "base_link", 1.0
+    mounted.transform.translation.z = LASER_HEIGHT_M
+    fixed = tf2_ros.StaticTransformBroadcaster(robot)
+    fixed.sendTransform(mounted)
     scans = robot.create_publisher(LaserScan, "scan", 10)
     for turn in range(MANY):
         if len(found) >= 3:
@@ -87,6 +93,7 @@ def test_the_node_of_the_page_finds_each_scan(context: Any) -> None:
     for each in found:  # between two steps
         assert each.header.stamp.nanosec % TURN_NS == SCAN_NS
         assert each.header.frame_id == "odom"
+        assert each.transform.translation.z == LASER_HEIGHT_M
 
 
 def drive(broadcaster: Any, scans: Any, now_ns: int) -> None:
@@ -96,7 +103,7 @@ def drive(broadcaster: Any, scans: Any, now_ns: int) -> None:
         moved.header.frame_id, moved.header.stamp = "odom", Time(nanoseconds=at_ns).to_msg()
         broadcaster.sendTransform(moved)
     scan = LaserScan()
-    scan.header.frame_id = "base_link"
+    scan.header.frame_id = "laser"
     scan.header.stamp = Time(nanoseconds=now_ns + SCAN_NS).to_msg()
     scans.publish(scan)
 

@@ -61,6 +61,12 @@ def topics(page: Any, robot: Carried) -> None:
     page.get_by_text("Robot status count").first.wait_for()
 
 
+def frames(page: Any, robot: Carried) -> None:
+    """The tree, with a body that moves and a laser that does not."""
+    page.get_by_role("row").filter(has_text="laser").get_by_text("static").wait_for()
+    page.get_by_role("row").filter(has_text="base_link").get_by_text("Hz").wait_for()
+
+
 def plot(page: Any, robot: Carried) -> None:
     """How fast it drives, and how fast it turns."""
     for field in ("twist.twist.linear.x", "twist.twist.angular.z"):
@@ -119,6 +125,7 @@ SHOWN: dict[str, Callable[[Any, Carried], None]] = {
     "rover": rover,
     "graph": graph,
     "topics": topics,
+    "frames": frames,
     "plot": plot,
     "services": services,
     "actions": actions,

@@ -172,6 +172,20 @@ def test_how_a_rover_sees_is_drawn_by_its_program(tmp_path: Path) -> None:
     assert len(seeds) == 10 and set(re.findall(r"drive\((\d+),", lesson)) <= set(seeds)
 
 
+def test_frames_are_drawn_by_their_program(tmp_path: Path) -> None:
+    """Day 12's drawings, all of them; the lesson reckons with the same nail and the same square."""
+    drawn("draw_frames.py", tmp_path)
+    kept = root() / "days" / "12-frames" / "pictures"
+    names = {each.name for each in tmp_path.iterdir()}
+    assert names | {"rover.svg"} == {each.name for each in kept.iterdir()}
+    for name in names:
+        assert (tmp_path / name).read_text("utf-8") == (kept / name).read_text("utf-8"), name
+    lesson = (kept.parent / "lesson.ipynb").read_text("utf-8")
+    assert "rover = (1.0, 2.0, math.radians(degrees))" in lesson
+    assert "x 1, y 4" in own_words(kept / "nail.svg") and "in the room 1.0, 4.0" in lesson
+    assert "index = row * width + column" in own_words(kept / "grid.svg")
+
+
 def test_the_page_tells_the_figures_of_rooms() -> None:
     """How wide a way is, how near what moves comes, how long it waits and a bump lasts."""
     text = (REFERENCE / "my-rover.md").read_text("utf-8").partition("## Rooms that")[2]

@@ -23,6 +23,7 @@ OTHERS = [
     "black-box",
     "e-stop",
     "wander",
+    "frames",
 ]
 
 

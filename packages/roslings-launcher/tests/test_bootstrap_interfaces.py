@@ -142,7 +142,7 @@ def test_tf_is_built_for_who_asks_for_it(arm: CourseCopy, tmp_path: Path) -> Non
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("command", ["rover", "my-rover", "lab"])
+@pytest.mark.parametrize("command", ["rover", "my-rover", "lab", "desk"])
 def test_tf_that_comes_built_needs_no_compiler(
     arm: CourseCopy, tmp_path: Path, command: str
 ) -> None:

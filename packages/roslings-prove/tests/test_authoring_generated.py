@@ -336,15 +336,20 @@ ENVIRONMENT = Environment(
 )
 
 
-def result(outcome: CheckOutcome = "fail", submission: str = "it") -> GradingResult:
-    """A result with one check."""
-    check = CheckResult(id="rate", title="rate", outcome=outcome, points=0, max_points=100)
+def result(
+    outcome: CheckOutcome = "fail", submission: str = "it", *others: CheckOutcome
+) -> GradingResult:
+    """A result with one check, or with some."""
+    checks = tuple(
+        CheckResult(id="rate", title="rate", outcome=each, points=0, max_points=100)
+        for each in (outcome, *others)
+    )
     verdict = Verdict(
         lab="example",
         package="beacon",
-        outcome=outcome_of((check,)),
+        outcome=outcome_of(checks),
         score=None,
-        checks=(check,),
+        checks=checks,
         seconds=Timings(total=1.0),
         environment=ENVIRONMENT,
     )
@@ -358,6 +363,8 @@ def test_only_a_failed_check_is_a_kill() -> None:
     assert fate_of(result("fail")) is Fate.KILLED
     assert fate_of(result("pass")) is Fate.SURVIVED
     assert fate_of(result("inconclusive")) is Fate.UNCLEAR
+    assert fate_of(result("pass", "it", "inconclusive")) is Fate.UNCLEAR
+    assert fate_of(result("fail", "it", "inconclusive")) is Fate.KILLED
     order = GradingOrder.model_construct(submission="it", digest="0", attempt=1)
     assert fate_of(broken(order, "no memory")) is Fate.UNCLEAR
     assert fate_of(None) is Fate.UNCLEAR

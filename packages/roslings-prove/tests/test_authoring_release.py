@@ -54,7 +54,7 @@ def test_its_lessons_run_under_nbval(edition: Path) -> None:
     counts = dict(re.findall(r"^days/([^/]+)/lesson\.ipynb: (\d+)$", done.stdout, re.MULTILINE))
     days = [path.parent for path in edition.glob("days/*/lesson.ipynb")]
     assert sorted(counts) == sorted(day.name for day in days), done.stdout + done.stderr
-    assert len(days) == 11 and all(int(count) > 10 for count in counts.values())
+    assert len(days) == 12 and all(int(count) > 10 for count in counts.values())
 
 
 def test_each_mutant_sentence_and_answer_line_is_kept_back(edition: Path) -> None:

@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 import rclpy
+from builtin_interfaces.msg import Time as TimeMessage
 from program import until
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import qos_profile_sensor_data
@@ -26,7 +27,8 @@ from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.frames import FrameOptions, odom_in_map
 from roslings_rover.rover.made import rover_in
 from roslings_rover.rover.odometer import Odometer
-from roslings_rover.rover.room_node import node_for
+from roslings_rover.rover.room_markers import markers_of_room
+from roslings_rover.rover.room_node import RoomNode, node_for
 from roslings_rover.rover.words import at_its_end, beside
 from skips import needs
 
@@ -111,6 +113,22 @@ def test_who_does_not_drift_believes_nothing_else() -> None:
     node = DrivenRover(Rover())
     assert node.believed is None
     assert not [line for line in beside(node) if "drift" in line]
+
+
+@pytest.mark.parametrize(
+    ("frames", "frame"),
+    [
+        (FrameOptions(), "odom"),
+        (FrameOptions(drift_percent=2.0), "map"),
+        (FrameOptions(map_frame=True), "map"),
+    ],
+)
+def test_a_room_is_told_in_the_frame_where_it_stands(frames: FrameOptions, frame: str) -> None:
+    """Where /odom drifts, the walls would wander with it."""
+    node = node_for(rover_in(SEED), frames)
+    assert isinstance(node, RoomNode) and node._room_frame == frame
+    told = markers_of_room(node.rover.world, TimeMessage(), node._room_frame)
+    assert {marker.header.frame_id for marker in told.markers} == {frame}
 
 
 # --- on /tf --------------------------------------------------------------------------------------

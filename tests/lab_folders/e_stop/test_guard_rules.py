@@ -121,6 +121,28 @@ def test_each_call_is_told_once(said: Any, fault: type[Exception] | None) -> Non
     assert found(demands.tell_each_press(BELL, DOOR), rung(*said)) is fault
 
 
+@pytest.mark.parametrize(
+    ("said_s", "fault"),
+    [
+        ((1.1, 2.1), None),
+        ((1.25, 2.25), None),
+        ((1.45, 2.1), None),
+        ((1.45, 2.42), faults.ToldLate),
+    ],
+)
+def test_a_press_is_told_at_once(said_s: Any, fault: type[Exception] | None) -> None:
+    """At 1.1 s and at 2.1 s it is answered; a busy computer may hold up one of two messages."""
+    seen = rung(*((at_s, True) for at_s in said_s))
+    times = [(S, S + S // 10), (2 * S, 2 * S + S // 10)]
+    calls = seen.seen.part(ServicesSeen).calls
+    calls[:] = [
+        call.model_copy(update={"sent_ns": sent, "answered_ns": answered})
+        for call, (sent, answered) in zip(calls, times, strict=True)
+    ]
+    bell = BELL.model_copy(update={"within_s": 0.2})
+    assert found(demands.tell_at_once(bell, DOOR), seen) is fault
+
+
 # --- a guard -----------------------------------------------------------------------------------
 
 
@@ -151,6 +173,28 @@ def test_a_guard_passes_on_what_the_operator_wants(
 ) -> None:
     """All of it, unchanged, and without a stop in between."""
     assert found(DRIVES, driven(seen)) is fault
+
+
+BEFORE, MIXED = {"linear.x": -0.3, "angular.z": -0.2}, {"linear.x": 0.5, "angular.z": -0.2}
+BOTH = {"linear.x": 0.5, "angular.z": 0.1}
+
+
+@pytest.mark.parametrize(
+    ("between", "fault"),
+    [
+        ([], None),
+        ([(1.1, 1.15, BEFORE)], None),
+        ([(1.1, 1.15, MIXED)], faults.OtherCommand),
+        ([(1.1, 1.15, {"linear.x": 0.5})], faults.OtherCommand),
+    ],
+)
+def test_no_message_is_of_two_commands(between: Any, fault: type[Exception] | None) -> None:
+    """The command before may last a moment, but whole: no field of it stays for a message."""
+    seen = moves((1, 1.1, BEFORE), *between, (1.2, 3, BOTH))
+    experiment = driven(seen)
+    drives = experiment.seen.part(EStopSeen).drives
+    drives[0] = drives[0].model_copy(update={"command": BOTH})
+    assert found(DRIVES, experiment) is fault
 
 
 def test_across_a_bad_link_a_short_stop_is_no_fault() -> None:

@@ -13,6 +13,7 @@ from graders.pi_camera.demands import (
     answer_nothing,
     answer_once,
     begin_with_the_hue,
+    call_none_bad,
     carry_the_header,
     draw_on_each,
     find_nothing,
@@ -257,6 +258,19 @@ def test_a_bad_picture_is_told_of_once(count: int, way: str) -> None:
         seen.must(demand)
     else:
         assert fault_of(seen, demand) is LoggedAgain
+
+
+@pytest.mark.parametrize(("at_ms", "is_told"), [(900, False), (1300, True)])
+def test_a_good_picture_that_is_called_bad(at_ms: int, is_told: bool) -> None:
+    """It is answered when it is shown again; the line while it was shown stays."""
+    lines = [LogLine(arrival_ns=at_ms * MS, text="Bad picture: 480 rows", source="terminal")]
+    view = looking([shown(1, tries=2)], [place(1, 100.0, 40.0)], lines=lines)
+    node = FINDER.model_copy(update={"log": "Bad picture: {text}"})
+    demand = call_none_bad(replace(SCREEN, node=node), "ball")
+    if is_told:
+        assert fault_of(view, demand) is faults.CalledBad
+    else:
+        view.must(demand)
 
 
 @pytest.mark.parametrize(("held_s", "is_told"), [(1.0, True), (PATIENCE_S + 1, False)])

@@ -1,7 +1,7 @@
 """The rooms of a class: secret ones, the same for all, or for each student others.
 
-The text that they are drawn from is kept in the gradebook: who grades again tomorrow, or grades
-those who were late, drives in the same rooms.
+The text that they are drawn from is kept in the gradebook. So those who were late drive in the same
+rooms as the others.
 """
 
 from __future__ import annotations

@@ -94,5 +94,6 @@ WINDOWS = {
     "rqt_reconfigure": DeskTabWindow("parameters"),
     "rqt_robot_steering": DeskTabWindow("rover"),
     "rqt_service_caller": DeskTabWindow("services"),
+    "rqt_tf_tree": DeskTabWindow("frames"),
     "rqt_topic": DeskTabWindow("topics"),
 }

@@ -31,6 +31,7 @@ BUILT_IN = {
     "rover": "roslings_desk.tabs.rover:RoverTab",
     "graph": "roslings_desk.tabs.graph:GraphTab",
     "topics": "roslings_desk.tabs.topics:TopicsTab",
+    "frames": "roslings_desk.tabs.frames:FramesTab",
     "plot": "roslings_desk.tabs.plot:PlotTab",
     "services": "roslings_desk.tabs.services:ServicesTab",
     "actions": "roslings_desk.tabs.actions:ActionsTab",

@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 
 from kernels import Kernel
 
+from skips import needs
 from sources import python_path, sources
 
 
@@ -136,6 +137,66 @@ with session() as ros:
     drawn = [content_of(shown) for shown in ran.shown]
     assert b"@keyframes drive" in drawn[0] and b"@keyframes drive" in drawn[1]
     assert drawn[2].startswith(b"\x89PNG")
+
+
+def test_scans_are_drawn_twice_and_a_map_once(cells: Kernel) -> None:
+    """By their own numbers, and from where they were measured: a beam ahead is then on the left."""
+    ran = cells.run("""
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import OccupancyGrid
+from sensor_msgs.msg import LaserScan
+
+scan = LaserScan(angle_increment=1.0, range_min=0.1, range_max=6.0)
+scan.ranges = [2.0, float("inf"), float("nan"), 7.0]
+place = TransformStamped()
+place.header.frame_id = "odom"
+place.transform.translation.x = 1.0
+place.transform.rotation.z = place.transform.rotation.w = 0.5**0.5
+show_scans([scan])
+show_scans([scan, scan], [place, place])
+grid = OccupancyGrid(data=[100, 0, -1, -1, 0, 60])
+grid.info.width, grid.info.height, grid.info.resolution = 3, 2, 0.05
+show_grid(grid)
+""")
+    assert ran.error == "", ran
+    alone, twice, cells_of_map = map(alt_of, ran.shown)
+    assert alone.endswith("By the laser's numbers alone: x from 2.0 to 2.0, y from 0.0 to 0.0.")
+    assert twice.startswith("The points of 2 scans from above, in metres.")
+    assert "In the frame odom: x from 1.0 to 1.0, y from 2.0 to 2.0." in twice
+    assert "2 rows and 3 columns: 2 cells are occupied, 2 free and 2 unknown" in cells_of_map
+    assert all(content_of(shown).startswith(b"\x89PNG") for shown in ran.shown)
+
+
+def test_what_cannot_be_drawn_is_told(cells: Kernel) -> None:
+    """No scan, a place too few, a map with too few cells, a scan that has seen nothing."""
+    cells.run("from nav_msgs.msg import OccupancyGrid\nfrom sensor_msgs.msg import LaserScan")
+    assert "There is no scan" in cells.run("show_scans([])").said
+    assert "2 scans need 2 places" in cells.run("show_scans([LaserScan()] * 2, [1])").said
+    assert "it has 0" in cells.run("show_grid(OccupancyGrid())").said
+    assert "nothing is seen" in alt_of(cells.run("show_scans([LaserScan()])").shown[0])
+
+
+@needs("module tf2_msgs")
+def test_a_rovers_odometry_may_drift(cells: Kernel) -> None:
+    """Its pose stays the truth, and its frames say what leads there."""
+    ran = cells.run("""
+from geometry_msgs.msg import Twist
+go = Twist()
+go.linear.x = 0.3
+with session() as ros:
+    rover = ros.rover(drift_percent=50.0, map_frame=True)
+    ros.say("/cmd_vel", go)
+    ros.until(lambda: rover.pose.x_m > 0.1, "the rover to move")
+    print(rover.odom_pose.x_m > 1.2 * rover.pose.x_m, rover.publishes_tf)
+    for topic in ("/tf", "/tf_static"):
+        (told,) = ros.collect(topic, count=1)
+        print(*(f"{t.header.frame_id}>{t.child_frame_id}" for t in told.transforms))
+with session() as ros:
+    print(ros.rover(tf=False).publishes_tf)
+""")
+    assert ran.error == "", ran
+    moving, fixed = "map>odom odom>base_link", "base_link>laser base_link>camera_optical"
+    assert ran.text.splitlines() == ["True True", moving, fixed, "False"], ran
 
 
 def test_a_cells_rover_is_the_only_one_in_its_domain(cells: Kernel) -> None:

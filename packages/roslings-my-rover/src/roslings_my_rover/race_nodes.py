@@ -15,6 +15,7 @@ from typing import Any
 
 from roslings_my_rover.race import Entrant, Race
 from roslings_rover.rover.driven import DrivenRover
+from roslings_rover.rover.frames import FrameOptions
 from roslings_rover.rover.messages import QUIET
 from roslings_rover.rover.node import NAME
 from roslings_rover.rover.subscriptions import LONGEST_SENTENCE, SENTENCE_LASTS_S, HeardSentence
@@ -62,9 +63,6 @@ class RacingRover(DrivenRover):
         self._executor.remove_node(self._node)
         self._node.destroy_node()
 
-    def _open_frames(self) -> None:
-        """Two rovers would speak on one /tf."""
-
     def _open_topics(self) -> None:
         super()._open_topics()
         from std_msgs.msg import String
@@ -99,7 +97,8 @@ class RaceNode:
 
     def __post_init__(self) -> None:
         self.rovers = [
-            RacingRover(entrant.rover, entrant=entrant) for entrant in self.race.entrants
+            RacingRover(entrant.rover, frames=FrameOptions(published=False), entrant=entrant)
+            for entrant in self.race.entrants
         ]
 
     def __enter__(self) -> RaceNode:

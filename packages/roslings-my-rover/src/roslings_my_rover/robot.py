@@ -229,8 +229,12 @@ def node_for(
     more_keys: str = "",
 ) -> MyRover:
     """The node of a rover of parts, where it is."""
-    kind = MyRoomRover if isinstance(rover, RoomRover) else MyRover
-    return kind(rover, frames=FrameOptions(tf), by_keys=by_keys, wiring=wiring, more_keys=more_keys)
+    frames = FrameOptions(tf)
+    if isinstance(rover, RoomRover):
+        return MyRoomRover(
+            rover, frames=frames, by_keys=by_keys, wiring=wiring, more_keys=more_keys
+        )
+    return MyRover(rover, frames=frames, by_keys=by_keys, wiring=wiring, more_keys=more_keys)
 
 
 def _listed(names: Iterable[str]) -> str:

@@ -22,6 +22,7 @@ from roslings_learn.notebook.programs import terminal  # noqa: E402
 from roslings_learn.notebook.qos_table import qos_table  # noqa: E402
 from roslings_learn.notebook.quiz import quiz  # noqa: E402
 from roslings_learn.notebook.rover_map import show_map, show_my_rover, show_path  # noqa: E402
+from roslings_learn.notebook.scans import show_grid, show_scans  # noqa: E402
 from roslings_learn.notebook.session import Session, session  # noqa: E402
 from roslings_learn.notebook.verdict import check  # noqa: E402
 from roslings_learn.notebook.watching import watch_topic  # noqa: E402
@@ -35,10 +36,12 @@ __all__ = [
     "quiz",
     "session",
     "show_graph",
+    "show_grid",
     "show_image",
     "show_map",
     "show_my_rover",
     "show_path",
+    "show_scans",
     "terminal",
     "watch_topic",
 ]

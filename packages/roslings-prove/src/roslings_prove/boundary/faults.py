@@ -172,10 +172,10 @@ def _nobody_can_tell(fault: BoundaryFault, topic: TopicContract) -> bool:
     """
     if topic.qos.durability == "transient_local":
         return False
-    if fault.kind == "heard":
+    if fault.kind == "heard" or not topic.rate:
         return fault.operator == "drop_first"
     unseen = {"drop_first", "late"} if topic.text else {"drop_first", "late", "drop_second"}
-    return fault.kind == "sent" and bool(topic.rate) and fault.operator in unseen
+    return fault.operator in unseen
 
 
 def _of_the_graph(lab: Lab) -> Iterator[BoundaryFault]:

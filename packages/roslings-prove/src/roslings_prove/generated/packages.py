@@ -72,10 +72,13 @@ class GeneratedPackage(Generic[W]):
 
 
 def fate_of(result: GradingResult | None) -> Fate:
-    """Killed by a check that fails, and by nothing else."""
+    """Killed by a check that fails, and by nothing else; others may have told nothing."""
     if result is None or result.state != "graded":
         return Fate.UNCLEAR
-    return {"fail": Fate.KILLED, "pass": Fate.SURVIVED}.get(result.word, Fate.UNCLEAR)
+    checks = result.verdict.checks if result.verdict else ()
+    if result.word == "fail" or any(check.outcome == "fail" for check in checks):
+        return Fate.KILLED
+    return Fate.SURVIVED if result.word == "pass" else Fate.UNCLEAR
 
 
 @cache

@@ -60,6 +60,7 @@ STARTED = {
     ),
     "roslings.lockstep.beside": ("roslings.lockstep.program",),
     "graders.black_box.act": ("ros2_on_pip.stand_ins.rosbag2_py",),
+    "graders.frames.act": ("ros2_on_pip.stand_ins.tf2_ros",),
 }
 """Module that starts a program to what the program is; no import leads there. A test holds this
 against the files that a grading opens."""

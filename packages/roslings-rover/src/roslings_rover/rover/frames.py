@@ -1,7 +1,7 @@
 """The rover's frames, on /tf and /tf_static.
 
-map -> odom -> base_link -> laser, camera_optical. A tree has no second parent, so each step is said
-by one node; map -> odom, which a program that knows the place would say, is said when asked for.
+From the root down: map, odom, base_link, then laser and camera_optical. A frame has one parent, so
+each step is said by one node. The step from map to odom is said when it is asked for.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """What the rover says, as ROS messages; the frames in which it says it, and how often.
 
-Labs say the same of their own rovers, and take it from here: the rover's node, which no lab is
-measured with, may change without them.
+Labs say the same of their own rovers, and take it from here. No lab is measured with the rover's
+node: that may change without them.
 """
 
 from __future__ import annotations

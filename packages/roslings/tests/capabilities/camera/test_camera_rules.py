@@ -195,6 +195,15 @@ def test_a_brightness_that_does_not(after: dict[str, Any], kind: type[Fault]) ->
     assert fault_of(filmed(*pictures, sets=SETS), FOLLOWS) is kind
 
 
+def test_a_change_by_one_point_counts() -> None:
+    """A node that takes the first change only in words is as light as before it."""
+    pictures = [*lit(0, level=100.0), *lit(1000, level=178.0, lighter=79.05)]
+    view = filmed(*pictures, sets=SETS)
+    with pytest.raises(camera_faults.BrightnessIgnored) as found:
+        view.must(FOLLOWS)
+    assert (found.value.before, found.value.after, found.value.found) == (50, 51, 0.0)
+
+
 def test_wrong_values_are_refused() -> None:
     """One that is taken is a fault; so is a node that ends. A node that is silent may be busy."""
     refuses = refuse(CAMERA, BRIGHT)

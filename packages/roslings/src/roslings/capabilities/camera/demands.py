@@ -32,6 +32,11 @@ AFTER_A_CHANGE = 4
 """Pictures to leave aside after a parameter was set: they may have been under way."""
 
 
+ONE_POINT = 1.0
+"""The smallest change of a brightness. Of the lights that were expected, a picture has the one that
+it comes nearest to. So half a point beside it is another one."""
+
+
 # --- what each message says of itself ----------------------------------------------------------
 
 
@@ -128,6 +133,11 @@ class Lit:
         """The mean of all values."""
         return sum(each.level or 0.0 for each in self.pixels) / len(self.pixels)
 
+    @property
+    def lighter(self) -> float:
+        """By how much the pictures are lighter than in the film, on average."""
+        return sum(each.lighter for each in self.pixels) / len(self.pixels)
+
 
 def follow_brightness(
     node: NodeContract,
@@ -151,6 +161,8 @@ def follow_brightness(
         for before, after in pairwise(lit):
             if not all(_is_lit(each, neutral, levels) for each in (before, after)):
                 raise _brightness_fault(parameter.name, before, after, neutral, levels)
+        for seen in lit:
+            _require_each_point(parameter.name, seen, neutral, levels)
 
     return demand
 
@@ -197,9 +209,16 @@ def _lit(
     return Lit(int(said.value), settled)
 
 
-def _is_lit(lit: Lit, neutral: float, levels: float) -> bool:
-    wanted = (lit.value - neutral) * levels
-    return all(_fits(each) and abs(each.lighter - wanted) < 2 * levels for each in lit.pixels)
+def _is_lit(lit: Lit, neutral: float, levels: float, within_points: float = 2.0) -> bool:
+    wanted, within = (lit.value - neutral) * levels, within_points * levels
+    return all(_fits(each) and abs(each.lighter - wanted) < within for each in lit.pixels)
+
+
+def _require_each_point(name: str, lit: Lit, neutral: float, levels: float) -> None:
+    """Also a change by one point acts. Raises BrightnessIgnored."""
+    if not _is_lit(lit, neutral, levels, within_points=ONE_POINT / 2):
+        wanted = (lit.value - neutral) * levels
+        raise faults.BrightnessIgnored(name, int(neutral), lit.value, wanted, lit.lighter)
 
 
 def _went_round(seen: PixelsSeen) -> bool:

@@ -1,7 +1,7 @@
 """Demands on drives through rooms. What was driven in real time is judged with bands.
 
-Points are no matter of all or nothing here: who does well in two of three rooms, or is a little off
-its wall, keeps a share of them.
+Points are no matter of all or nothing here. Who does well in two of three rooms keeps a share,
+and so does who is a little off the wall.
 """
 
 from __future__ import annotations
