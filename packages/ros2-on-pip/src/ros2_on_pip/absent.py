@@ -37,7 +37,7 @@ GRAPH = "rqt_graph, or ./roslings graph in the roslings folder"
 ROVER = "the rover and its map: ./roslings rover"
 DRIVE = "ros2 run teleop_twist_keyboard teleop_twist_keyboard"
 PICTURES = "show_image in a notebook (day 7), or ros2 topic hz and echo --no-arr"
-TF = "ros2 topic echo /tf, beside ./roslings rover"
+TF = "ros2 topic echo /tf, beside ./roslings rover --tf"
 TEACHING = "is another guide's example"
 DEMO = "ros2 run demo_nodes_py talker"
 
