@@ -19,6 +19,7 @@ LOOKS_ON = {
     f"{LAUNCHER}/test_bootstrap_first_use.py": "its course is pretended, and grades nothing",
     "tests/cli/test_platforms.py": "what it checks is refused, or only read",
     "tests/bench": "it measures, and holds no verdict",
+    f"{CLASS}/batch/test_batch_rooms.py": "what it checks is refused",
     f"{CLASS}/export/test_export_played.py": "a platform's own script asks, once",
     "packages/roslings-prove/tests/test_mistakes_of_authors.py": "a broken grader never tells",
     "tests/lab_folders/test_lab_folders.py": "a broken folder never tells",

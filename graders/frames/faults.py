@@ -196,7 +196,7 @@ class BodyElsewhere(Fault):
     slip: BodySlip
     was_seen = True
     why = "The odometry says where the rover is. The step says the same, in another form."
-    expected = "{step} is where the odometry of its stamp is"
+    expected = "{step} is at the place that the odometry of its stamp says"
     measured = "it is {off_m:.3f} m and {off_rad:.3f} rad off"
     hint = one_of(
         turn="The place is right, the turn is not. What becomes of the orientation?",
@@ -330,8 +330,8 @@ class OffTheWalls(Fault):
         inverse="Target and source are swapped: which of the two frames are your points in?",
         laser_frame="These numbers are in the frame of the laser. What takes them to the other?",
         none=(
-            "Put the rover before one wall, and compare: the distance, the angle of the beam, the"
-            " place of the laser, its turn."
+            "Which one is wrong before one single wall: the distance, the angle of the beam, the"
+            " place of the laser, or its turn?"
         ),
     )
     mend = one_of(

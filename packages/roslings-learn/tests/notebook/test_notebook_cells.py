@@ -342,7 +342,7 @@ del os.environ["ROSLINGS_WINDOW"]
     (shown,) = ran.shown
     assert f'src="/user/ann/roslings/desk/{ran.text.strip()}/graph"' in shown["text/html"]
     wrong = cells.run("desk('plott')")
-    assert wrong.error == "NoSuchTab" and "It has: rover, graph, topics, plot" in wrong.told
+    assert wrong.error == "NoSuchTab" and "It has: rover, graph, topics, frames, plot" in wrong.told
 
 
 def test_elsewhere_the_desk_is_a_program_beside_the_cell(cells: Kernel) -> None:

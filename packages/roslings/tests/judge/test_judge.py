@@ -80,13 +80,12 @@ def test_one_mistake_costs_one_check(
 
 
 @pytest.mark.parametrize(
-    ("share", "points"), [(0.0, 0), (0.5, 5), (0.59, 5), (0.99, 9), (1.0, 9), (1.5, 9), (-1.0, 0)]
+    ("share", "points"), [(0.0, 0), (0.5, 3), (0.59, 4), (0.99, 6), (1.0, 6), (1.5, 6), (-1.0, 0)]
 )
 def test_a_fault_may_leave_a_share_of_the_points(
     evidence: Evidence, other_course: Path, share: float, points: float
 ) -> None:
     """Whole points, never all of them, and never less than none. The check fails all the same."""
-    change(other_course / "labs/topics/card.yaml", "  counting: 7", "  counting: 10")
     find = "    talking.topic(CHATTER).must(count_up)"
     raises = f"""
     from roslings.judge.faults.base import Unmet
@@ -96,7 +95,7 @@ def test_a_fault_may_leave_a_share_of_the_points(
     (failed,) = judge(
         change(other_course / "graders/grade_topics.py", find, raises), evidence
     ).failed()
-    assert (failed.id, failed.points, failed.max_points) == ("counting", points, 10)
+    assert (failed.id, failed.points, failed.max_points) == ("counting", points, 7)
 
 
 def test_nothing_seen_is_skipped_and_not_failed(evidence: Evidence) -> None:
