@@ -55,7 +55,7 @@ class StepMissing(Fault):
     mend = one_of(
         swapped="header.frame_id is the parent, and child_frame_id is what sits on it.",
         slash="Write the name without the slash.",
-        none="header.frame_id = '{parent}', child_frame_id = '{child}'",
+        none="The header.frame_id is '{parent}', and the child_frame_id is '{child}'.",
     )
 
     @property
