@@ -302,7 +302,8 @@ class DriveTeller:
         publisher = self._publishers[self._roads.odometry.topic]
         publisher.publish(message)
         if not self._is_confirmed:
-            publisher.wait_for_all_acked(Duration(seconds=CONFIRMED_S))
+            # It holds Python's lock while it waits: so it is asked again and again.
+            self._scene.probe.until(lambda: publisher.wait_for_all_acked(Duration()), CONFIRMED_S)
             self._is_confirmed = True
 
     def _tell_scan(self, told: Scan) -> None:
