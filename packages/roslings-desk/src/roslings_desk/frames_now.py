@@ -15,8 +15,8 @@ from typing import Any
 
 from ros2_on_pip.frames_heard import NANOSECONDS, FrameHeard, FramesHeard
 from ros2_on_pip.frames_shown import about
+from roslings_rover.rover.frames import TF, TF_STATIC
 
-TF, TF_STATIC = "/tf", "/tf_static"
 TF_MESSAGE = "tf2_msgs/msg/TFMessage"
 LATELY_S = 5.0
 """Rates and parents are those of so long."""

@@ -9,16 +9,10 @@ from functools import partial
 
 from ros2_on_pip.interfaces import UnknownInterface, class_of
 from roslings_desk.controls import Notice, PageText, StatusLine, button, part
-from roslings_desk.frames_now import (
-    TF,
-    TF_MESSAGE,
-    TF_STATIC,
-    FrameRow,
-    FramesLook,
-    FramesNow,
-)
+from roslings_desk.frames_now import TF_MESSAGE, FrameRow, FramesLook, FramesNow
 from roslings_desk.hub import SharedSubscription
 from roslings_desk.tab import OpenTab
+from roslings_rover.rover.frames import TF, TF_STATIC
 
 COLUMNS = ("Frame", "Rate and age", "x, y, z in m", "Yaw in degrees", "Said by")
 MOST_ROWS = 100

@@ -126,7 +126,11 @@ def _trail(messages: Sequence[Any]) -> list[RoverMoment]:
 
 
 def _pose(odometry: Any) -> Pose:
-    place, turned = odometry.pose.pose.position, odometry.pose.pose.orientation
+    return pose_of(odometry.pose.pose.position, odometry.pose.pose.orientation)
+
+
+def pose_of(place: Any, turned: Any) -> Pose:
+    """A point and a quaternion of a message, as a pose on flat ground."""
     return Pose(place.x, place.y, 2 * math.atan2(turned.z, turned.w))
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from roslings_learn.notebook.errors import NotebookTrouble
 from roslings_learn.notebook.picture import NotebookPicture, show
+from roslings_learn.notebook.rover_map import pose_of
 from roslings_rover.palette import colour_of
 
 Point = tuple[float, float]
@@ -80,10 +81,8 @@ def points_of(scan: Any) -> Iterator[Point]:
 
 def _moved(points: Sequence[Point], place: Any) -> list[Point]:
     """From the frame that lies there, on flat ground, to the one of the header."""
-    shift, turn = place.transform.translation, place.transform.rotation
-    yaw = 2 * math.atan2(turn.z, turn.w)
-    cos, sin = math.cos(yaw), math.sin(yaw)
-    return [(shift.x + cos * x - sin * y, shift.y + sin * x + cos * y) for x, y in points]
+    laser = pose_of(place.transform.translation, place.transform.rotation)
+    return [laser.ahead(x, y) for x, y in points]
 
 
 def _extent(scans: Sequence[Sequence[Point]]) -> str:
