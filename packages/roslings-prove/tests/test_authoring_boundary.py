@@ -83,6 +83,12 @@ def test_fields_of_a_service_and_of_an_own_action() -> None:
     assert parts == [["x", "y", "tolerance"], ["reached", "elapsed"], ["x", "y", "distance"]]
 
 
+def test_a_type_that_the_course_brings_need_not_be_built(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No wheel has that of /tf, and the environment that asks may be without it."""
+    monkeypatch.setattr("roslings_prove.boundary.fields._prefixes", list)
+    assert fields_of(lab("frames"), "tf2_msgs/msg/TFMessage") == []
+
+
 def test_a_qos_that_matches_all_the_same_is_no_fault() -> None:
     """A listener that asks for less hears all; a publisher that keeps its last offers more."""
     found = {(f.kind, f.operator) for f in faults(lab("topics")) if f.kind.endswith(" qos")}

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Literal
 
 from ros2_on_pip.interfaces import UnknownInterface
-from roslings.course import Lab
+from roslings.course import Lab, root
+from roslings_launcher.interface_sources import packages_of
 
 Kind = Literal["float", "int", "unsigned", "bool", "string"]
 KINDS: dict[str, Kind] = {
@@ -56,10 +57,11 @@ def fields_of(lab: Lab, type_name: str, part: int = 0) -> list[MessageField]:
 
 
 def _text(lab: Lab, type_name: str) -> str:
-    """Of a type that the lab brings, or of one that is installed."""
+    """Of a type that the course brings, or of one that is installed."""
     package, kind, name = type_name.split("/")
+    brought = [folder.parent for folder in packages_of(root())]
     shares = [Path(each, "share") for each in _prefixes()]
-    for place in (lab.folder / "interfaces", *shares):
+    for place in (lab.folder / "interfaces", *brought, *shares):
         file = place / package / kind / f"{name}.{kind}"
         if file.is_file():
             return file.read_text("utf-8")
