@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from roslings.course import Lab, lab
-from roslings.course.files import BadCourseFile
+from roslings.course import Lab, all_labs, lab
+from roslings.course.files import BadCourseFile, read_tree, read_yaml
 from roslings.course.labs import example_root
 from roslings.verdict import CheckOutcome, CheckResult, Environment, Timings, Verdict, outcome_of
 from roslings_changes.candidates import modules_of
@@ -29,7 +29,7 @@ from roslings_class.submissions import digest_of
 from roslings_prove.generated import choice, graded_process
 from roslings_prove.generated import run as running
 from roslings_prove.generated.choice import Generated, chosen, generated
-from roslings_prove.generated.explained import FILE, explained
+from roslings_prove.generated.explained import FILE, Explanations, explained
 from roslings_prove.generated.keeping import AlreadyProving
 from roslings_prove.generated.kills import kill_of
 from roslings_prove.generated.packages import Fate, GeneratedPackage, fate_of, judged_by
@@ -463,6 +463,14 @@ def test_an_explanation_names_its_diff_and_a_line_of_the_card(
         explained(explaining(tmp_path, moved), packages)
     with pytest.raises(BadCourseFile, match="no such line under not_judged"):
         explained(explaining(tmp_path, entry(first, "not_judged: the weather")), packages)
+
+
+@pytest.mark.parametrize("one", all_labs(), ids=lambda one: one.name)
+def test_the_file_of_each_lab_can_be_read(one: Lab) -> None:
+    """One that has comments alone says that nothing is explained."""
+    file = one.folder / FILE
+    entries = read_yaml(file, Explanations).root if file.is_file() else ()
+    assert len(entries) == len(read_tree(file) or ())
 
 
 def test_students_do_not_get_what_is_explained() -> None:

@@ -50,7 +50,12 @@ class Explanation(Contract):
 
 
 class Explanations(RootModel[tuple[Explanation, ...]]):
-    """All of a lab."""
+    """All of a lab; a file with comments alone has none."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _none_is_an_empty_list(cls, read: object) -> object:
+        return () if read is None else read
 
 
 def explained(
