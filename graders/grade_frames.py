@@ -17,6 +17,7 @@ from graders.frames.demands import (
     hear_on,
     leave_the_unknown,
     lie_on_walls,
+    say_each_once,
     say_nothing_unknown,
     say_where_the_laser_is,
     show_walls,
@@ -190,6 +191,13 @@ def test_walls(middle: ExperimentView, beside: ExperimentView, anywhere: Experim
     """{WALLS.topic} has points for most scans, with their stamps; none where nothing is known."""
     for drive in (middle, beside, anywhere):
         drive.must(answer_scans(WALLS, TREE), say_nothing_unknown(WALLS, "before"))
+
+
+@check(needs=["walls"])
+def test_once(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
+    """Each odometry has one step on {TF.topic}, and each scan one message on {WALLS.topic}."""
+    for drive in (middle, beside, anywhere):
+        drive.must(say_each_once(TF, WALLS))
 
 
 @check(needs=["walls"])

@@ -379,14 +379,16 @@ def _write_steps(scene: Scene, heard: HeardOfFrames) -> None:
     """Each once; of what moves, the first."""
     found: dict[tuple[object, ...], StepSeen] = {}
     for source, told in list(heard.steps):
-        step = _step(source, told)
+        step = step_seen(source, told)
         key = (source, step.parent, step.child)
         found.setdefault(key if source == "tf" else (*key, step.x_m, step.y_m, step.yaw_rad), step)
     scene.seen.recording(FramesSeen).steps += list(found.values())[:MOST_STEPS]
 
 
-def _step(source: Source, told: Any) -> StepSeen:
+def step_seen(source: Source, told: Any) -> StepSeen:
+    """What is kept of a TransformStamped."""
     place, turn = told.transform.translation, told.transform.rotation
+    length = math.hypot(turn.x, turn.y, turn.z, turn.w)
     return StepSeen(
         source=source,
         parent=told.header.frame_id[:LONGEST_NAME],
@@ -394,9 +396,14 @@ def _step(source: Source, told: Any) -> StepSeen:
         x_m=_rounded(place.x),
         y_m=_rounded(place.y),
         yaw_rad=_rounded(_yaw_rad(turn)),
-        tilted=max(abs(turn.x), abs(turn.y)) > LEVEL,
-        length=_rounded(math.hypot(turn.x, turn.y, turn.z, turn.w)),
+        tilted=_is_tilted(turn),
+        length=_rounded(length),
+        is_finite=math.isfinite(length + place.x + place.y + place.z),
     )
+
+
+def _is_tilted(turn: Any) -> bool:
+    return max(abs(turn.x), abs(turn.y)) > LEVEL
 
 
 def _yaw_rad(turn: Any) -> float:
@@ -405,7 +412,8 @@ def _yaw_rad(turn: Any) -> float:
 
 
 def _rounded(value: float) -> float:
-    return round(float(value), EXACT_DECIMALS)
+    """0 for inf and NaN: that there was one is kept beside it."""
+    return round(float(value), EXACT_DECIMALS) if math.isfinite(value) else 0.0
 
 
 @dataclass
@@ -424,14 +432,15 @@ class _Writing:
 
     def _write_body(self) -> None:
         places = {self.teller.stamp_ns(each.at_s): each.body for each in self.drive.odometry}
-        told = set()
+        told = Counter[tuple[str, int]]()
         for source, step in list(self.heard.steps):
             if source != "tf":
                 continue
             stamp_ns = _stamp_ns(step.header)
-            told.add(stamp_ns)
-            self.seen.body.append(_body(step, stamp_ns, places.get(stamp_ns)))
-        self.seen.told = len(told & places.keys())
+            told[step.child_frame_id, stamp_ns] += 1
+            self.seen.body.append(body_seen(step, stamp_ns, places.get(stamp_ns)))
+        self.seen.told = len({stamp_ns for _, stamp_ns in told} & places.keys())
+        self.seen.told_again = told.total() - len(told)
 
     def _write_walls(self) -> None:
         scans = {self.teller.stamp_ns(each.at_s): each for each in self.drive.scans}
@@ -449,16 +458,27 @@ class _Writing:
             self.seen.walls.append(_walls(self.drive, message, stamp_ns, scan))
 
 
-def _body(step: Any, stamp_ns: int, truth: Pose | None) -> BodySeen:
-    found = _step("tf", step)
+def body_seen(step: Any, stamp_ns: int, truth: Pose | None) -> BodySeen:
+    """What is kept of a rover's step, beside the truth of its stamp."""
+    found, place = step_seen("tf", step), step.transform.translation
     return BodySeen(
         parent=found.parent,
         child=found.child,
         stamp=_kind_of(stamp_ns, truth is not None),
-        off_m=_rounded(math.dist((found.x_m, found.y_m), (truth.x_m, truth.y_m))) if truth else 0.0,
-        off_rad=_rounded(abs(wrapped(found.yaw_rad - truth.heading_rad))) if truth else 0.0,
+        off_m=_rounded(math.hypot(place.x - truth.x_m, place.y - truth.y_m, place.z))
+        if truth
+        else 0.0,
+        off_rad=_rounded(_off_rad(step.transform.rotation, truth.heading_rad)) if truth else 0.0,
         length=found.length,
+        is_finite=found.is_finite,
     )
+
+
+def _off_rad(turn: Any, heading_rad: float) -> float:
+    """The angle between this rotation, whatever its length, and one about z alone."""
+    length = math.hypot(turn.x, turn.y, turn.z, turn.w) or 1.0
+    along = turn.w * math.cos(heading_rad / 2) + turn.z * math.sin(heading_rad / 2)
+    return 2 * math.acos(min(1.0, abs(along) / length))
 
 
 def _kind_of(stamp_ns: int, known: bool) -> Stamp:
@@ -488,6 +508,8 @@ def _write_map(scene: Scene, drive: Drive, heard: HeardOfFrames, seen: FramesDri
     if (told := heard.map) is None:
         return
     info, values = told.info, np.array(told.data, np.int8)
+    corner, turn = info.origin.position, info.origin.orientation
+    length = math.hypot(turn.x, turn.y, turn.z, turn.w)
     seen.map, shown = measured(
         drive,
         MapSeen(
@@ -496,9 +518,13 @@ def _write_map(scene: Scene, drive: Drive, heard: HeardOfFrames, seen: FramesDri
             width=info.width,
             height=info.height,
             cells=len(values),
-            x_m=_rounded(info.origin.position.x),
-            y_m=_rounded(info.origin.position.y),
-            yaw_rad=_rounded(_yaw_rad(info.origin.orientation)),
+            x_m=_rounded(corner.x),
+            y_m=_rounded(corner.y),
+            yaw_rad=_rounded(_yaw_rad(turn)),
+            tilted=_is_tilted(turn),
+            length=_rounded(length),
+            z_m=_rounded(corner.z),
+            is_finite=math.isfinite(length + corner.x + corner.y + corner.z),
             values=[int(each) for each in np.unique(values)[:MOST_VALUES]],
         ),
         values,

@@ -15,6 +15,7 @@ from graders.frames.contract import TreeContract
 from graders.frames.reasons import NoDriveTold
 from graders.frames.record import (
     HEARS_ON,
+    BodySeen,
     FramesDriveSeen,
     FramesSeen,
     MapSeen,
@@ -62,7 +63,7 @@ def say_where_the_laser_is(topic: TopicContract, tree: TreeContract) -> Demand[E
     def demand(experiment: ExperimentView) -> None:
         drive = _drive(experiment)
         step = _step(experiment, topic, wanted, ("tf_static",))
-        _require_rotation(step, wanted)
+        _require_numbers(step, wanted)
         off_m = math.hypot(step.x_m - drive.laser_x_m, step.y_m - drive.laser_y_m)
         off_rad = _apart_rad(step.yaw_rad, drive.laser_yaw_rad)
         if off_m > NEAR_M or off_rad > NEAR_RAD or step.tilted:
@@ -95,7 +96,9 @@ def _turn_slip(found: float, wanted: float) -> faults.LaserSlip:
     return "turn"
 
 
-def _require_rotation(step: StepSeen, wanted: faults.TreeStep) -> None:
+def _require_numbers(step: StepSeen | BodySeen, wanted: faults.TreeStep) -> None:
+    if not step.is_finite:
+        raise faults.NoNumbers(wanted)
     if abs(step.length - 1.0) > LENGTH_OFF:
         raise faults.NoQuaternion(wanted, step.length)
 
@@ -173,8 +176,7 @@ def follow_the_odometry(topic: TopicContract, tree: TreeContract) -> Demand[Expe
                 topic.topic, wanted, drive.odometry, drive.told, _other_stamp(drive)
             )
         for each in own:
-            if abs(each.length - 1.0) > LENGTH_OFF:
-                raise faults.NoQuaternion(wanted, each.length)
+            _require_numbers(each, wanted)
         off_m, off_rad = max(each.off_m for each in own), max(each.off_rad for each in own)
         if off_m > NEAR_M or off_rad > NEAR_RAD:
             slip: faults.BodySlip = "place" if off_m > NEAR_M else "turn"
@@ -206,6 +208,20 @@ def answer_scans(topic: TopicContract, tree: TreeContract) -> Demand[ExperimentV
         wanted = math.ceil(tree.walls.answered * len(scans))
         if answered < wanted:
             raise faults.ScansUnanswered(topic.topic, wanted, answered, len(scans))
+
+    return demand
+
+
+def say_each_once(tf: TopicContract, walls: TopicContract) -> Demand[ExperimentView]:
+    """No step and no points with a stamp that they had already."""
+
+    def demand(experiment: ExperimentView) -> None:
+        drive = _drive(experiment)
+        again = sum(max(0, scan.answers - 1) for scan in drive.scans)
+        if drive.told_again:
+            raise faults.ToldAgain(tf.topic, "odometry", drive.told_again)
+        if again:
+            raise faults.ToldAgain(walls.topic, "scan", again)
 
     return demand
 
@@ -290,12 +306,23 @@ def be_a_grid(topic: TopicContract, tree: TreeContract) -> Demand[ExperimentView
             raise faults.BadGrid("cell", f"{tree.map.cell_m:g}", f"{seen.cell_m:g}")
         if seen.cells != seen.width * seen.height:
             raise faults.BadGrid("count", f"{seen.width * seen.height}", f"{seen.cells}")
-        if abs(seen.yaw_rad) > NEAR_RAD:
-            raise faults.BadGrid("turned", "0", f"{seen.yaw_rad:.3f}")
+        _require_level(seen)
         if others := set(seen.values) - VALUES:
             raise faults.BadGrid("values", "-1, 0 or 100", ", ".join(map(str, sorted(others))))
 
     return demand
+
+
+def _require_level(seen: MapSeen) -> None:
+    """Its corner lies on the floor, and it is not turned."""
+    if not seen.is_finite:
+        raise faults.BadGrid("numbers", "", "")
+    if abs(seen.length - 1.0) > LENGTH_OFF:
+        raise faults.BadGrid("rotation", "1", f"{seen.length:.3f}")
+    if seen.tilted or abs(seen.yaw_rad) > NEAR_RAD:
+        raise faults.BadGrid("tilted" if seen.tilted else "turned", "0", f"{seen.yaw_rad:.3f}")
+    if abs(seen.z_m) > NEAR_M:
+        raise faults.BadGrid("height", "0", f"{seen.z_m:g}")
 
 
 def show_walls(tree: TreeContract) -> Demand[ExperimentView]:

@@ -104,6 +104,18 @@ class NoQuaternion(Fault):
 
 
 @dataclass(eq=False)
+class NoNumbers(Fault):
+    """Some of a step's numbers are inf or NaN."""
+
+    step: TreeStep
+    was_seen = True
+    why = "Who looks up a frame counts with these numbers. Nothing comes out of inf and NaN."
+    expected = "each number of {step} is finite"
+    measured = "one is inf or NaN"
+    hint = "Which of these numbers is set by your code? Print them."
+
+
+@dataclass(eq=False)
 class LaserElsewhere(Fault):
     """The laser is not where the parameters say."""
 
@@ -269,6 +281,32 @@ class ScansUnanswered(Fault):
 
 
 @dataclass(eq=False)
+class ToldAgain(Fault):
+    """The same step, or the points of the same scan, came more than once."""
+
+    topic: str
+    of: Literal["odometry", "scan"]
+    count: int
+    was_seen = True
+    why = "Who hears the same again does the same work again. tf2 warns of each such step."
+    expected = one_of(
+        odometry="one step on {topic} for each odometry",
+        scan="one message on {topic} for each scan",
+    )
+    measured = plural(
+        "count",
+        one="{count} had a stamp that was told already",
+        other="{count} had a stamp that was told already",
+    )
+    hint = "From how many places of your code is it published, and what calls them?"
+
+    @property
+    def which_expected(self) -> str:
+        """What it is said of."""
+        return self.of
+
+
+@dataclass(eq=False)
 class OtherCount(Fault):
     """There are more points than distances, or fewer."""
 
@@ -404,7 +442,7 @@ class NoMap(Fault):
 class BadGrid(Fault):
     """The numbers of a map do not belong together."""
 
-    what: Literal["cell", "count", "turned", "values"]
+    what: Literal["cell", "count", "numbers", "rotation", "turned", "tilted", "height", "values"]
     wanted: str
     found: str
     was_seen = True
@@ -412,13 +450,21 @@ class BadGrid(Fault):
     expected = one_of(
         cell="info.resolution is {wanted}",
         count="data has info.width * info.height = {wanted} numbers",
+        numbers="each number of info.origin is finite",
+        rotation="the rotation of info.origin has the length {wanted}",
         turned="info.origin is not turned",
+        tilted="info.origin is not turned",
+        height="info.origin.position.z is {wanted}",
         values="each cell is {wanted}",
     )
     measured = one_of(
         cell="it is {found}",
         count="it has {found}",
+        numbers="one is inf or NaN",
+        rotation="its length is {found}",
         turned="its yaw is {found} rad",
+        tilted="it is turned about x or y",
+        height="it is {found}",
         values="some are {found}",
     )
     hint = "Compare the fields of info with the cells that your node counts."

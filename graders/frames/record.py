@@ -38,6 +38,7 @@ class StepSeen(Record):
     yaw_rad: float
     tilted: bool = Field(description="It is turned about x or y, too")
     length: float = Field(description="Of the quaternion: 1 where it is one")
+    is_finite: bool = Field(default=True, description="None of its numbers is inf or NaN")
 
 
 class BodySeen(Record):
@@ -49,6 +50,7 @@ class BodySeen(Record):
     off_m: float = Field(description="0 where no odometry has this stamp")
     off_rad: float
     length: float = Field(description="Of the quaternion: 1 where it is one")
+    is_finite: bool = Field(default=True, description="None of its numbers is inf or NaN")
 
 
 class ScanSaid(Record):
@@ -83,6 +85,10 @@ class MapSeen(Record):
     x_m: float = Field(description="The place of its first cell's corner")
     y_m: float
     yaw_rad: float
+    tilted: bool = Field(default=False, description="Its origin is turned about x or y, too")
+    length: float = Field(default=1.0, description="Of the origin's quaternion")
+    z_m: float = 0.0
+    is_finite: bool = Field(default=True, description="No number of the origin is inf or NaN")
     values: list[int] = Field(description="Each that is in it, the first few")
     walls: float = Field(default=0.0, description="Part of the cells with walls that are 100")
     true_walls: float = Field(default=0.0, description="Part of what is 100 that is at a wall")
@@ -102,6 +108,7 @@ class FramesDriveSeen(Record):
     blocked_s: float = Field(default=0.0, description="One callback took longer than this; 0: none")
     odometry: int = Field(default=0, description="So many messages")
     told: int = Field(default=0, description="Those that /tf has a step for")
+    told_again: int = Field(default=0, description="Steps of one child and stamp, but the first")
     body: Columns[BodySeen] = Field(default_factory=list)
     scans: Columns[ScanSaid] = Field(default_factory=list)
     walls: Columns[WallsSeen] = Field(default_factory=list)

@@ -10,8 +10,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from geometry_msgs.msg import Quaternion, TransformStamped
 from numpy.typing import NDArray
 
+from graders.frames.act import body_seen, step_seen
 from graders.frames.cells import measured, truth_of
 from graders.frames.drive import (
     FREE_M,
@@ -43,6 +45,51 @@ def a_drive(request: pytest.FixtureRequest) -> Drive:
 def turning(drive: Drive) -> list[Scan]:
     """Scans of the fastest turn, where the rover has left its first place."""
     return [scan for scan in drive.scans if abs(scan.turn_rad_s) == 2.0]
+
+
+# --- steps -----------------------------------------------------------------------------------
+
+
+def step(x_m: float = 1.0, z_m: float = 0.0, turn: Quaternion | None = None) -> TransformStamped:
+    """One that a node says of a rover that is at (1, 0), half a radian to the left."""
+    told = TransformStamped()
+    told.transform.translation.x, told.transform.translation.z = x_m, z_m
+    told.transform.rotation = turn or Quaternion(z=math.sin(0.25), w=math.cos(0.25))
+    return told
+
+
+TRUTH = Pose(1.0, 0.0, 0.5)
+
+
+@pytest.mark.parametrize(
+    ("turn", "off_rad"),
+    [
+        (Quaternion(z=math.sin(0.25), w=math.cos(0.25)), 0.0),
+        (Quaternion(z=-math.sin(0.25), w=-math.cos(0.25)), 0.0),
+        (Quaternion(z=math.sin(0.5), w=math.cos(0.5)), 0.5),
+        (Quaternion(x=1.0, w=0.0), math.pi),
+    ],
+    ids=["right", "the same rotation", "half a radian more", "on its roof"],
+)
+def test_a_turn_is_off_by_the_angle_of_the_whole_rotation(turn: Quaternion, off_rad: float) -> None:
+    """Also where it is about another axis."""
+    assert body_seen(step(turn=turn), 1, TRUTH).off_rad == pytest.approx(off_rad, abs=1e-3)
+
+
+def test_a_rover_above_the_floor_is_elsewhere() -> None:
+    """As far as one that is beside its place."""
+    assert body_seen(step(z_m=0.2), 1, TRUTH).off_m == pytest.approx(0.2)
+    assert body_seen(step(), 1, TRUTH).off_m == 0.0
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_numbers_that_are_none_are_kept_as_such(value: float) -> None:
+    """No distance is counted with them: a comparison with NaN would hold for anything."""
+    for told in (step(x_m=value), step(z_m=value), step(turn=Quaternion(w=value))):
+        assert not step_seen("tf", told).is_finite
+        body = body_seen(told, 1, TRUTH)
+        assert not body.is_finite
+        assert math.isfinite(body.off_m + body.off_rad)
 
 
 # --- drives ------------------------------------------------------------------------------------
