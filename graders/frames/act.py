@@ -403,7 +403,7 @@ def step_seen(source: Source, told: Any) -> StepSeen:
 
 
 def _is_tilted(turn: Any) -> bool:
-    return max(abs(turn.x), abs(turn.y)) > LEVEL
+    return bool(max(abs(turn.x), abs(turn.y)) > LEVEL)
 
 
 def _yaw_rad(turn: Any) -> float:
