@@ -4,6 +4,8 @@ The names, numbers and points stand in labs/frames/card.yaml. Experiments tell t
 of drives that nobody knows; checks read what it said of them, and run nothing.
 """
 
+from collections.abc import Mapping
+
 from graders.frames.act import FrameTopics, hearing, join_late, tell_of_a_drive
 from graders.frames.contract import FramesWords
 from graders.frames.demands import (
@@ -59,6 +61,26 @@ TF_STATIC, TF, WALLS, MAP = FRAMES.publishes
 ROADS = FrameTopics(ODOMETRY, SCAN, TF_STATIC, TF, WALLS, MAP)
 LASER_X, LASER_Y, LASER_YAW = FRAMES.of(ParameterWords).named("laser_x", "laser_y", "laser_yaw")
 TREE = written(FRAMES.of(FramesWords).frames, FRAMES.node)
+
+# --- one mistake, one check --------------------------------------------------------------------
+
+Faults = Mapping[str, str | tuple[str, ...]]
+"""Another check's name to faults there."""
+
+LASER_WRONG = ("StepMissing", "NoNumbers", "NoQuaternion", "LaserElsewhere")
+BODY_WRONG = ("StepsMissing", "NoNumbers", "NoQuaternion", "BodyElsewhere")
+WALLS_WRONG = ("OtherFrame", "NotTheScansStamp", "ScansUnanswered", "SaysTheUnknown")
+STEPS_WRONG: Faults = {"laser": LASER_WRONG, "body": BODY_WRONG}
+"""Where a step is wrong, the points that are put through it lie elsewhere, and so does the map."""
+
+POINTS_WRONG: Faults = {**STEPS_WRONG, "walls": WALLS_WRONG, "distances": "OtherCount"}
+MAP_WRONG: Faults = {
+    **POINTS_WRONG,
+    "tree": ("StepMissing", "TwoParents"),
+    "standing": "OffTheWalls",
+    "turning": "OffTheWalls",
+}
+CELLS_WRONG: Faults = {**MAP_WRONG, "map_walls": ("WallsElsewhere", "WallsInTheAir")}
 
 
 # --- experiments: tell the node of drives ------------------------------------------------------
@@ -169,7 +191,7 @@ def test_drives(middle: ExperimentView, beside: ExperimentView, anywhere: Experi
         drive.must(hear_on)
 
 
-@check(needs=["laser", "drives"])
+@check(needs=["drives"], explained_by={"laser": "StepMissing"})
 def test_tree(middle: ExperimentView, beside: ExperimentView) -> None:
     """{TREE.odometry} to {TREE.body} is there, and each frame has one parent."""
     for drive in (middle, beside):
@@ -186,7 +208,7 @@ def test_body(middle: ExperimentView, beside: ExperimentView, anywhere: Experime
 # --- the walls ---------------------------------------------------------------------------------
 
 
-@check(needs=["body"])
+@check(needs=["tree"], explained_by=STEPS_WRONG)
 def test_walls(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
     """{WALLS.topic} has points for most scans, with their stamps; none where nothing is known."""
     for drive in (middle, beside, anywhere):
@@ -200,7 +222,7 @@ def test_once(middle: ExperimentView, beside: ExperimentView, anywhere: Experime
         drive.must(say_each_once(TF, WALLS))
 
 
-@check(needs=["walls"])
+@check(needs=["tree"], explained_by={**STEPS_WRONG, "walls": WALLS_WRONG})
 def test_distances(
     middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView
 ) -> None:
@@ -209,14 +231,14 @@ def test_distances(
         drive.must(have_a_point_for_each(WALLS))
 
 
-@check(needs=["distances"])
+@check(needs=["tree"], explained_by=POINTS_WRONG)
 def test_standing(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
     """While the rover stands, the points are on walls."""
     for drive in (middle, beside, anywhere):
         drive.must(lie_on_walls(TREE, "standing"))
 
 
-@check(needs=["standing"])
+@check(needs=["standing"], explained_by=POINTS_WRONG)
 def test_turning(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
     """While it drives and turns, too: each scan is at the place of its own time."""
     for drive in (middle, beside, anywhere):
@@ -242,7 +264,7 @@ def test_map_cells(middle: ExperimentView, beside: ExperimentView) -> None:
         drive.must(be_a_grid(MAP, TREE))
 
 
-@check(needs=["map_cells", "distances", "turning"])
+@check(needs=["map_cells"], explained_by=MAP_WRONG)
 def test_map_walls(
     middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView
 ) -> None:
@@ -251,14 +273,14 @@ def test_map_walls(
         drive.must(show_walls(TREE))
 
 
-@check(needs=["map_walls"])
+@check(needs=["map_cells"], explained_by=CELLS_WRONG)
 def test_map_free(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
     """Cells on the way to walls are 0."""
     for drive in (middle, beside, anywhere):
         drive.must(show_what_is_free(TREE))
 
 
-@check(needs=["map_walls"])
+@check(needs=["map_free"], explained_by=CELLS_WRONG)
 def test_map_unknown(
     middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView
 ) -> None:
