@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,3 +21,13 @@ def test_its_way_crosses_both_axes(seed: int) -> None:
         places = [each.values[axis] for each in said]
         assert min(places) < -0.05
         assert max(places) > 0.05
+
+
+@settings(deadline=None, max_examples=20)
+@given(seed=st.integers(0, 2**32))
+def test_its_first_way_and_its_last_one_are_long(seed: int) -> None:
+    """Who leaves out a place, or takes the one before, is off by more than the last digit."""
+    said = of_topic(unknown_drive(seed, "/odom", 4.0).said, "/odom")
+    places = [(each.values[X], each.values[Y]) for each in said]
+    for one, next_one in ((places[0], places[1]), (places[-2], places[-1])):
+        assert math.dist(one, next_one) > 0.04

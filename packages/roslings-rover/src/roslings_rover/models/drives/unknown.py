@@ -95,7 +95,6 @@ def _topics(chance: Chance, odometry: str, seconds: float, limit: float) -> Iter
     own = f"/deck_{int(chance.between(100, 1000))}"
     names = {ODOM: odometry, LIGHT: f"{own}/light"}
     pauses: Mapping[TopicSheet, Mapping[float, float]] = {
-        ODOM: {0.4: chance.between(12, 20)},
         IMU: {0.25: limit - EDGE, 0.6: limit + EDGE},
         RANGE: {0.3: limit + EDGE, 0.5: chance.between(6, 9), 0.7: limit - EDGE},
         BATTERY: {0.5: limit + EDGE},
@@ -103,10 +102,12 @@ def _topics(chance: Chance, odometry: str, seconds: float, limit: float) -> Iter
     rates = dict(zip(SHEET, chance.shuffled(RATES_HZ), strict=False))
     for sheet in SHEET:
         rate_hz = 20.0 if sheet is ODOM else rates[sheet]
-        planned = {
+        planned: Mapping[int, float] = {
             int(part * seconds * rate_hz): periods
             for part, periods in pauses.get(sheet, {}).items()
         }
+        if sheet is ODOM:
+            planned = _pauses_of_odometry(chance, seconds * rate_hz)
         yield replace(
             TopicPlan.healthy(sheet),
             name=names.get(sheet, sheet.name),
@@ -114,6 +115,16 @@ def _topics(chance: Chance, odometry: str, seconds: float, limit: float) -> Iter
             pauses=planned,
             ahead_s=-chance.between(0.2, 0.5),
         )
+
+
+def _pauses_of_odometry(chance: Chance, periods: float) -> dict[int, float]:
+    """In the middle, after the first message and before the last one.
+
+    So the first way and the last way are long: who leaves out one of them is far off.
+    """
+    first, middle, last = chance.between(12, 16), chance.between(12, 20), chance.between(12, 16)
+    the_last = int(periods - first - middle - last) + 2
+    return {1: first, int(0.4 * periods): middle, the_last: last, the_last + 1: periods}
 
 
 def _with_others(drive: RecordedDrive, chance: Chance) -> RecordedDrive:
