@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 from graders.frames import faults
 from graders.frames.contract import TreeContract
-from graders.frames.reasons import NoDriveTold
+from graders.frames.reasons import NoDriveTold, NotSeenToHear
 from graders.frames.record import (
     HEARS_ON,
     BodySeen,
@@ -43,11 +43,18 @@ VALUES = {-1, 0, 100}
 
 
 def _drive(experiment: ExperimentView) -> FramesDriveSeen:
-    """Raises NothingToJudge where the node was not told of one."""
+    """Raises NothingToJudge where the node was not told of one, for it ended.
+
+    Whoever asks needs the check of its subscriptions: they were there in another experiment. So one
+    that runs on and is not seen to hear raises Inconclusive.
+    """
     drive = experiment.seen.part(FramesSeen).drive
-    if drive is None or not drive.heard:
-        raise NoDriveTold("not_told")
-    return drive
+    if drive is not None and drive.heard:
+        return drive
+    for process in experiment.seen.processes.values():
+        if not process.ended_by_itself:
+            raise NotSeenToHear(process.executable)
+    raise NoDriveTold("not_told")
 
 
 # --- the tree ----------------------------------------------------------------------------------

@@ -5,8 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from roslings.judge.faults.base import NothingToJudge
+from roslings.judge.faults.base import Inconclusive, NothingToJudge
 from roslings.judge.faults.sentences import one_of
+
+
+@dataclass(eq=False)
+class NotSeenToHear(Inconclusive):
+    """In one drive the node has not subscribed, and where nobody drove it has."""
+
+    executable: str
+    text = (
+        "this computer did not see in time that {executable} hears, so it could not be told of a"
+        " drive; close other programs and check again"
+    )
 
 
 @dataclass(eq=False)

@@ -98,11 +98,31 @@ def test_a_fault_may_leave_a_share_of_the_points(
     assert (failed.id, failed.points, failed.max_points) == ("counting", points, 7)
 
 
-def test_nothing_seen_is_skipped_and_not_failed(evidence: Evidence) -> None:
-    """Without experiments there is nothing to judge about the nodes."""
+def test_nothing_seen_is_not_failed(evidence: Evidence) -> None:
+    """Without experiments there is nothing to judge about the nodes, and nobody says why."""
     empty = evidence.model_copy(update={"experiments": {}})
     verdict = judge(lab("topics"), empty)
-    assert set(outcomes(verdict).values()) == {"skip"}
+    assert set(outcomes(verdict).values()) == {"skip", "inconclusive"}
+    assert verdict.score is None
+
+
+@pytest.mark.parametrize(("hz", "outcome"), [("2.0", "inconclusive"), ("4.0", "skip")])
+def test_who_had_nothing_to_look_at_is_told_by_another_check_or_cannot_tell(
+    evidence: Evidence, other_course: Path, hz: str, outcome: str
+) -> None:
+    """Nothing fails, and a check saw nothing: this computer was too busy, the student is right."""
+    change(other_course / "labs/topics/card.yaml", "hz: 2.0", f"hz: {hz}")
+    topics = change(
+        other_course / "graders/grade_topics.py",
+        "    talking.topic(CHATTER).must(count_up)",
+        "    from roslings.judge.faults.reasons import NothingSeen\n\n"
+        '    raise NothingSeen("messages")',
+    )
+    verdict = judge(topics, evidence)
+    assert outcomes(verdict)["counting"] == outcome
+    assert (verdict.score is None) is (outcome == "inconclusive")
+    why = next(check.why for check in verdict.checks if check.id == "counting") or ""
+    assert why.endswith("; check again") is (outcome == "inconclusive")
 
 
 def test_a_mistake_of_the_grader_costs_the_student_nothing(

@@ -15,8 +15,8 @@ from roslings.course import Lab
 from roslings.evidence import UnreadablePart
 from roslings.judge.check import check_of
 from roslings.judge.dropped import LookedAt
-from roslings.judge.faults import Fault, Inconclusive, PrintsWithoutEnd
-from roslings.judge.faults.reasons import FirstMend
+from roslings.judge.faults import Fault, Inconclusive, NothingToJudge, PrintsWithoutEnd
+from roslings.judge.faults.reasons import CheckAgain, FirstMend
 from roslings.judge.floods import flood_in
 from roslings.judge.grader_mistakes import nothing_called
 from roslings.judge.outcome import words_for, words_for_mistake
@@ -39,7 +39,26 @@ class Collector:
         """Checks that do not pass, and keep no other from being judged."""
         self._floods: dict[str, str] = {}
         """Executables that print without end, to the check that tells it."""
+        self._nothing: dict[str, NothingToJudge] = {}
+        """Checks that had nothing to look at, to the reason."""
         self._lab, self._looks, self._there = lab, looks, there
+
+    @property
+    def told(self) -> tuple[CheckResult, ...]:
+        """All outcomes. Where no other check says why one had nothing to look at, it cannot tell.
+
+        So on a busy computer, where something was not seen in time, a right package loses nothing.
+        """
+        if any(each.outcome in ("fail", "inconclusive") for each in self.results):
+            return tuple(self.results)
+        return tuple(map(self._or_again, self.results))
+
+    def _or_again(self, result: CheckResult) -> CheckResult:
+        reason = self._nothing.get(result.id)
+        if reason is None:
+            return result
+        words = words_for(CheckAgain(reason), result.title)
+        return result.model_copy(update=words)
 
     def pytest_addoption(self, parser: pytest.Parser) -> None:
         """How a failure is written: nobody reads pytest's own page, half of a judgement's time."""
@@ -122,6 +141,8 @@ class Collector:
         }
         if isinstance(error, Fault) and not error.blocks:
             self._open.add(name)
+        if isinstance(error, NothingToJudge) and not isinstance(error, FirstMend):
+            self._nothing[name] = error
         if words["outcome"] == "fail" and hint:
             words["hints"] = steps_of(self._lab.name, name, hint.steps)
         return CheckResult(**words)
