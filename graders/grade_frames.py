@@ -67,10 +67,23 @@ TREE = written(FRAMES.of(FramesWords).frames, FRAMES.node)
 Faults = Mapping[str, str | tuple[str, ...]]
 """Another check's name to faults there."""
 
+TOLD_WRONG: Faults = {
+    "topics": (
+        "NoTopic",
+        "WrongTopic",
+        "TwoPublishers",
+        "WrongType",
+        "QosCannotMatch",
+        "NotThisQos",
+    ),
+    "parameters": ("NoParameter", "WrongParameterType", "WrongDefault"),
+}
+"""What may keep a node from being told of a drive, and us from hearing what it says of it."""
+
 LASER_WRONG = ("StepMissing", "NoNumbers", "NoQuaternion", "LaserElsewhere")
 BODY_WRONG = ("StepsMissing", "NoNumbers", "NoQuaternion", "BodyElsewhere")
 WALLS_WRONG = ("OtherFrame", "NotTheScansStamp", "ScansUnanswered", "SaysTheUnknown")
-STEPS_WRONG: Faults = {"laser": LASER_WRONG, "body": BODY_WRONG}
+STEPS_WRONG: Faults = {**TOLD_WRONG, "laser": LASER_WRONG, "body": BODY_WRONG}
 """Where a step is wrong, the points that are put through it lie elsewhere, and so does the map."""
 
 POINTS_WRONG: Faults = {**STEPS_WRONG, "walls": WALLS_WRONG, "distances": "OtherCount"}
@@ -170,20 +183,20 @@ def test_parameters(waiting: ExperimentView) -> None:
 # --- the tree ----------------------------------------------------------------------------------
 
 
-@check(needs=["topics", "parameters"])
+@check(needs=["runs"], explained_by=TOLD_WRONG)
 def test_laser(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
     """{TREE.body} to {TREE.laser} is what the parameters say."""
     for drive in (middle, beside, anywhere):
         drive.must(say_where_the_laser_is(TF_STATIC, TREE))
 
 
-@check(needs=["laser"])
+@check(needs=["runs"], explained_by={**TOLD_WRONG, "laser": "StepMissing"})
 def test_latched(waiting: ExperimentView) -> None:
     """Who comes late gets it, too."""
     waiting.must(be_latched(TF_STATIC, TREE))
 
 
-@check(needs=["topics", "parameters"])
+@check(needs=["runs"], explained_by=TOLD_WRONG)
 def test_drives(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
     """It runs on and hears on, whatever is not known yet."""
     for drive in (middle, beside, anywhere):
@@ -191,14 +204,14 @@ def test_drives(middle: ExperimentView, beside: ExperimentView, anywhere: Experi
         drive.must(hear_on)
 
 
-@check(needs=["drives"], explained_by={"laser": "StepMissing"})
+@check(needs=["drives"], explained_by={**TOLD_WRONG, "laser": "StepMissing"})
 def test_tree(middle: ExperimentView, beside: ExperimentView) -> None:
     """{TREE.odometry} to {TREE.body} is there, and each frame has one parent."""
     for drive in (middle, beside):
         drive.must(be_a_tree(TF, TREE))
 
 
-@check(needs=["tree"])
+@check(needs=["tree"], explained_by=TOLD_WRONG)
 def test_body(middle: ExperimentView, beside: ExperimentView, anywhere: ExperimentView) -> None:
     """Each odometry is told on {TF.topic}, with its stamp and its place."""
     for drive in (middle, beside, anywhere):
@@ -248,7 +261,7 @@ def test_turning(middle: ExperimentView, beside: ExperimentView, anywhere: Exper
 # --- the map -----------------------------------------------------------------------------------
 
 
-@check(needs=["drives"])
+@check(needs=["drives"], explained_by=TOLD_WRONG)
 def test_map_topic(waiting: ExperimentView, middle: ExperimentView) -> None:
     """It publishes {MAP.type} on {MAP.topic}, and who comes late gets the last one."""
     waiting.publisher(FRAMES, MAP).must(

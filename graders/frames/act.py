@@ -20,8 +20,6 @@ import numpy as np
 from graders.frames.cells import measured
 from graders.frames.contract import TreeContract
 from graders.frames.drive import (
-    RANGE_MAX_M,
-    RANGE_MIN_M,
     STEP_RAD,
     Drive,
     LaserMount,
@@ -310,13 +308,14 @@ class DriveTeller:
         from sensor_msgs.msg import LaserScan
 
         angles = beams_rad(self._drive)
+        least_m, most_m = self._drive.limits_m
         message = LaserScan(
             angle_min=float(angles[0]),
             angle_max=float(angles[-1]),
             angle_increment=STEP_RAD,
             scan_time=0.2,
-            range_min=RANGE_MIN_M,
-            range_max=RANGE_MAX_M,
+            range_min=least_m,
+            range_max=most_m,
             ranges=array.array("f", told.ranges.tolist()),
         )
         message.header.frame_id = self._tree.laser

@@ -45,8 +45,8 @@ VALUES = {-1, 0, 100}
 def _drive(experiment: ExperimentView) -> FramesDriveSeen:
     """Raises NothingToJudge where the node was not told of one, for it ended.
 
-    Whoever asks needs the check of its subscriptions: they were there in another experiment. So one
-    that runs on and is not seen to hear raises Inconclusive.
+    One that runs on and is not seen to hear raises Inconclusive: if it has no such subscription at
+    all, the check of its topics says so.
     """
     drive = experiment.seen.part(FramesSeen).drive
     if drive is not None and drive.heard:

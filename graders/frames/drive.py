@@ -108,6 +108,16 @@ class Drive:
     scans: tuple[Scan, ...] = field(default=())
 
     @property
+    def limits_m(self) -> tuple[float, float]:
+        """The smallest and the largest distance of which a node can know the place.
+
+        The laser says that these are its limits: who leaves out a limit itself misses a point.
+        """
+        known = [each for each in self.scans if each.part in ("standing", "moving")]
+        found = np.concatenate([each.ranges[each.is_distance] for each in known])
+        return float(found.min()), float(found.max())
+
+    @property
     def ends_s(self) -> float:
         """When the last scan has come."""
         return sum(each.seconds for each in self.way)

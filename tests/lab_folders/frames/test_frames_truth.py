@@ -104,6 +104,16 @@ def test_the_same_seed_is_the_same_drive(drive: Drive) -> None:
     )
 
 
+def test_a_distance_is_at_each_limit_of_the_laser(drive: Drive) -> None:
+    """In a scan of which the place can be known, and none is beyond."""
+    least_m, most_m = drive.limits_m
+    known = [scan for scan in drive.scans if scan.part in KNOWN]
+    found = np.concatenate([scan.ranges[scan.is_distance] for scan in known])
+    assert least_m in found
+    assert most_m in found
+    assert ((least_m <= found) & (found <= most_m)).all()
+
+
 def test_the_rover_touches_nothing(drive: Drive) -> None:
     """Its laser is never inside of a wall."""
     for scan in drive.scans:
