@@ -45,7 +45,7 @@ VALUES = {-1, 0, 100}
 def _drive(experiment: ExperimentView) -> FramesDriveSeen:
     """Raises NothingToJudge where the node was not told of one, for it ended.
 
-    One that runs on and is not seen to hear raises Inconclusive: if it has no such subscription at
+    One that runs on and is not seen to hear raises Inconclusive. If it has no such subscription at
     all, the check of its topics says so.
     """
     drive = experiment.seen.part(FramesSeen).drive
