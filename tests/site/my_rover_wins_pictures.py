@@ -41,6 +41,7 @@ from roslings_my_rover.parts import (
     EYES,
     GUARD,
     LIMITER,
+    MAPPER,
     PACE,
     PILOT,
     SONAR,
@@ -61,11 +62,12 @@ COLUMNS, LINES = 80, 24
 KEY_EVERY_S = 0.1
 HOME = "\x1b[H"
 """Each time that the screen is drawn begins with it."""
-COLOURS = {31: "red", 33: "yellow", 34: "blue", 35: "magenta", 36: "cyan", 90: "grey"}
+COLOURS = {31: "red", 32: "green", 33: "yellow", 34: "blue", 35: "magenta", 36: "cyan", 90: "grey"}
 """What `rich` makes of the map's styles, by ECMA-48."""
 HUES = """
 .red { fill: #ff8a80; } .yellow { fill: #ffe082; } .blue { fill: #82b1ff; }
 .magenta { fill: #ea9df0; } .cyan { fill: #80deea; } .grey { fill: #9aa4b2; }
+.green { fill: #69db7c; }
 """
 TOKEN = re.compile(r"\x1b\[([0-9;]*)m|\x1b\[[0-9;?]*[a-zA-Z]|([^\x1b\r])")
 DRIVE = "ros2 topic pub --rate 5 /cmd_vel geometry_msgs/msg/Twist"
@@ -275,6 +277,12 @@ def _wanders(screen: Screen) -> None:
     assert "bumps" in screen.text and screen.number("bumps") == 0, screen.text
 
 
+def _draws_the_room(screen: Screen) -> None:
+    screen.says("its walls are green")
+    screen.shows(lambda: screen.number("way") > 9)
+    assert "bumps" in screen.text and screen.number("bumps") == 0, screen.text
+
+
 def _keeps_a_bag(screen: Screen) -> None:
     with screen.typing(f'{DRIVE} "{{linear: {{x: 0.4}}}}"'):
         screen.shows(lambda: screen.number("way") > 2)
@@ -385,6 +393,15 @@ WINS = (
         "The map of a room. The rover has gone along a wall by itself, and the map counts no bump.",
         "--room 35",
     ),
+    Win(
+        12,
+        "frames",
+        (VOICE, WANDERER, MAPPER),
+        _draws_the_room,
+        "The map of a room, in which the walls that your node has drawn are green. After Ctrl-C the"
+        " room stands there as your node has drawn it.",
+        "--room 35",
+    ),
 )
 
 
@@ -402,6 +419,9 @@ def seen(win: Win, home: Path) -> list[Shot]:
         _has_passed(home / "roslings_ws", part)
     with started(home, win.words) as screen:
         win.play(screen)
+        if win.day == 12:
+            lines = _without_end(screen.lines)
+            return [Shot(win.typed, lines), Shot(win.typed, _drawn_room(screen.interrupt()))]
         if win.day != 9:
             return [Shot(win.typed, _without_end(screen.lines))]
         told = screen.interrupt()
@@ -410,6 +430,12 @@ def seen(win: Win, home: Path) -> list[Shot]:
         Shot(win.typed, [[(line, "")] for line in told[went : went + 2]]),
         _read(home),
     ]
+
+
+def _drawn_room(told: Sequence[str]) -> list[Line]:
+    """What is said at the end, from the place of the rover on; its last lines are the room."""
+    begin = next(number for number, line in enumerate(told) if line.startswith("Your rover"))
+    return _without_end([[(line, "")] for line in told[begin:]])
 
 
 def _has_passed(workspace: Path, part: RoverPart) -> None:

@@ -77,11 +77,16 @@ class MyRover(DrivenRover):
         return self.drawn.walls_m if self.drawn and self.drawn.frame == ODOM_FRAME else None
 
     @property
+    def lacks_tf(self) -> bool:
+        """A part that says it is there: then it is not missed."""
+        return self.wiring.says_frames and super().lacks_tf
+
+    @property
     def about_frames(self) -> str:
         """Who says the frames when their part has ended; at most 80 columns."""
         if self.publishes_tf:
             return "Now the rover itself says /tf and /tf_static."
-        return "Nobody says /tf now: --no-tf." if not self.frames.published else ""
+        return "" if self.lacks_tf else "Nobody says /tf now: you typed --no-tf."
 
     def silent(self, plugged: bool) -> tuple[Silent, ...]:
         """Whose messages are missing now."""

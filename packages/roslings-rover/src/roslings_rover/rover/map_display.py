@@ -213,7 +213,7 @@ class MapTerminal:
         from rich.text import Text
 
         columns, lines = self._console.size
-        words = _without_gaps(words, lines - 3)
+        words = without_gaps(words, lines - 3)
         rows = _as_high(drawn, len(words))
         text = Text(no_wrap=True, overflow="crop")
         for row, word in zip(rows, _filled(words, len(rows)), strict=True):
@@ -228,7 +228,7 @@ def _as_high(drawn: list[list[MapCell]], lines: int) -> list[list[MapCell]]:
     return [*drawn, *[[FLOOR] * len(drawn[0])] * (lines - len(drawn))]
 
 
-def _without_gaps(words: list[str], lines: int) -> list[str]:
+def without_gaps(words: list[str], lines: int) -> list[str]:
     """At most so many lines: the empty ones go first, from below."""
     kept = [*words]
     for number in reversed(range(len(words))):
