@@ -73,6 +73,7 @@ TOKEN = re.compile(r"\x1b\[([0-9;]*)m|\x1b\[[0-9;?]*[a-zA-Z]|([^\x1b\r])")
 DRIVE = "ros2 topic pub --rate 5 /cmd_vel geometry_msgs/msg/Twist"
 REFERENCE = root() / "site/pages/reference/pictures"
 
+ARROWS = "<>^v"
 Line = list[tuple[str, str]]
 """Pieces of text, each with its colour; the usual one is empty."""
 
@@ -250,9 +251,24 @@ def _drives_to_a_point(screen: Screen) -> None:
 def _loses_its_cable(screen: Screen) -> None:
     screen.hold("i", lambda: screen.number("way") > 0.5)
     screen.hold("j", lambda: screen.number("heading") > 30)
-    screen.hold("i", lambda: screen.number("way") > 1.5)
-    screen.press("p")
-    screen.shows(lambda: "The cable is pulled" in screen.text and screen.number("speed") == 0)
+    for far_m in (1.5, 1.7, 1.9, 2.1):
+        screen.hold("i", lambda: screen.number("way") > far_m)  # noqa: B023 - it is asked here
+        screen.press("p")
+        screen.shows(lambda: _stands_without_cable(screen.text) and screen.number("speed") == 0)
+        if _errs(screen):
+            return
+        screen.press("p")
+        screen.says("The cable is plugged in")
+
+
+def _stands_without_cable(text: str) -> bool:
+    return "The cable is pulled" in text and "Robot status count" in text
+
+
+def _errs(screen: Screen) -> bool:
+    """A grey arrow stands beside the rover's."""
+    pieces = (piece for line in screen.lines for piece in line)
+    return any(colour == "grey" and set(text) & set(ARROWS) for text, colour in pieces)
 
 
 def _touches_the_ball(screen: Screen) -> None:
