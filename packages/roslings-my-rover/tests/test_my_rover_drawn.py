@@ -9,6 +9,7 @@ import signal
 from collections import Counter, defaultdict
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -19,11 +20,15 @@ from test_my_rover_wins import carries, workspace
 from roslings.course import lab
 from roslings_my_rover.drawn_room import DrawnRoom, NoMap, drawn_room
 from roslings_my_rover.parts import MAPPER
+from roslings_my_rover.robot import MyRover
+from roslings_rover.models.differential_drive import Pose
 from roslings_rover.models.rooms import room_of
-from roslings_rover.models.world import World
+from roslings_rover.models.world import World, default_world
+from roslings_rover.rover.displays import RoverMapWindow
 from roslings_rover.rover.in_room import RoomRover
 from roslings_rover.rover.map_display import without_gaps
-from roslings_rover.rover.rover import Rover
+from roslings_rover.rover.moving_map import moving_map
+from roslings_rover.rover.rover import Rover, RoverMoment
 from roslings_rover.rover.text_map import ASCII, UNICODE, cells, letters_for
 from skips import skip_without
 
@@ -138,6 +143,34 @@ def test_what_is_drawn_far_outside_is_not_shown() -> None:
     grid = grid_of(["#####"] * 5)
     grid.info.origin.position.x = 30.0
     assert kinds_on(RoomRover(room_of(35)), drawn_room(grid))["drawn"] == 0
+
+
+def test_a_notebook_shows_them_too() -> None:
+    """On its map of the drive, with a word for them below."""
+    rover = RoverMoment(0.0, Pose())
+    world, room = default_world(), drawn_room(grid_of(["#.#"]))
+    shown = ElementTree.fromstring(moving_map(world, [rover], 0.12, drawn=room.walls_m))
+    drawn = [each for each in shown.iter() if each.get("class") == "drawn"]
+    assert [each.attrib["d"].count("M") for each in drawn] == [2, 1]
+    assert ">drawn<" not in moving_map(world, [rover], 0.12)
+
+
+def test_a_window_shows_them_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And draws itself anew when another map has come."""
+    import matplotlib.pyplot as plt
+
+    plt.switch_backend("agg")
+    node = MyRover(Rover())
+    with RoverMapWindow(node) as window:
+        monkeypatch.setattr(window._figure.canvas, "flush_events", lambda: None)
+        for rows in (["###"], ["#.#"]):
+            node.drawn = drawn_room(grid_of(rows))
+            window.show(node)
+            (walls,) = (line for line in window._axes.lines if line.get_marker() == "s")
+            assert len(walls.get_xdata()) == "".join(rows).count("#")
+        node.drawn = None
+        window.show(node)
+        assert not [line for line in window._axes.lines if line.get_marker() == "s"]
 
 
 def test_empty_lines_go_first_where_all_parts_find_no_room() -> None:
