@@ -107,7 +107,7 @@ class RoverNode:
     @property
     def lacks_tf(self) -> bool:
         """It would say it, and the type is missing."""
-        return self.frames.published and self._frames is None
+        return self.frames.published and not self.publishes_tf
 
     @property
     def sentence(self) -> HeardSentence | None:
