@@ -537,10 +537,10 @@ def shots_of(svg: str) -> list[Shot]:
 def words_of(shots: Sequence[Shot]) -> list[str]:
     """All words beside and below the maps, of numbers only that they are there.
 
-    The map itself is left out: each drive is a little different.
+    The map itself is left out, and the drawn room: each drive is a little different.
     """
     lines = [plain(line) for shot in shots for line in shot.lines]
-    beside = [re.sub(r"^[|+].*[|+]", "", line) for line in lines]
+    beside = [re.sub(r"^[|+].*[|+]|^[#. ]+$", "", line) for line in lines]
     return [" ".join(NUMBER.sub("0", line).split()) for line in beside if line.strip()]
 
 
