@@ -13,9 +13,10 @@ from pathlib import Path
 
 from roslings.course import root
 from roslings_my_rover.chosen import AbsentPart
-from roslings_my_rover.parts import EYES, GUARD, LIMITER, PARTS, day_number, labs_of_parts
+from roslings_my_rover.parts import EYES, PARTS, day_number, labs_of_parts
 from roslings_my_rover.robot import STATUS, MyRover
 from roslings_rover.models.differential_drive import Motion
+from roslings_rover.rover.map_display import without_gaps
 from roslings_rover.rover.rover import Rover
 from roslings_rover.rover.subscriptions import HeardSentence
 from roslings_rover.rover.text_map import ASCII, cells
@@ -49,7 +50,7 @@ def rover() -> MyRover:
 def _parts() -> Iterator[str]:
     labs = labs_of_parts()
     for part in PARTS:
-        if part in (EYES, LIMITER, GUARD):
+        if PARTS.index(part) >= PARTS.index(EYES):
             yield AbsentPart(part, labs[part.name]).line
         else:
             yield f"{part.name:8} {REMARKS.get(part.name, '')}".rstrip()
@@ -61,7 +62,7 @@ def screen() -> list[str]:
     node = rover()
     said = HeardSentence("Robot status count: 42", STATUS)
     rows = cells(node.rover, WIDE, HIGH, ASCII, f'"{said.text}"')
-    words = beside(node)
+    words = without_gaps(beside(node), len(rows))
     words += [""] * (len(rows) - len(words))
     lines = ("".join(cell.letter for cell in row) for row in rows)
     return [f"{line}  {word}".rstrip() for line, word in zip(lines, words, strict=False)]

@@ -41,6 +41,7 @@ from roslings_my_rover.parts import (
     EYES,
     GUARD,
     LIMITER,
+    MAPPER,
     PACE,
     PILOT,
     SONAR,
@@ -61,16 +62,18 @@ COLUMNS, LINES = 80, 24
 KEY_EVERY_S = 0.1
 HOME = "\x1b[H"
 """Each time that the screen is drawn begins with it."""
-COLOURS = {31: "red", 33: "yellow", 34: "blue", 35: "magenta", 36: "cyan", 90: "grey"}
+COLOURS = {31: "red", 32: "green", 33: "yellow", 34: "blue", 35: "magenta", 36: "cyan", 90: "grey"}
 """What `rich` makes of the map's styles, by ECMA-48."""
 HUES = """
 .red { fill: #ff8a80; } .yellow { fill: #ffe082; } .blue { fill: #82b1ff; }
 .magenta { fill: #ea9df0; } .cyan { fill: #80deea; } .grey { fill: #9aa4b2; }
+.green { fill: #69db7c; }
 """
 TOKEN = re.compile(r"\x1b\[([0-9;]*)m|\x1b\[[0-9;?]*[a-zA-Z]|([^\x1b\r])")
 DRIVE = "ros2 topic pub --rate 5 /cmd_vel geometry_msgs/msg/Twist"
 REFERENCE = root() / "site/pages/reference/pictures"
 
+ARROWS = "<>^v"
 Line = list[tuple[str, str]]
 """Pieces of text, each with its colour; the usual one is empty."""
 
@@ -248,9 +251,24 @@ def _drives_to_a_point(screen: Screen) -> None:
 def _loses_its_cable(screen: Screen) -> None:
     screen.hold("i", lambda: screen.number("way") > 0.5)
     screen.hold("j", lambda: screen.number("heading") > 30)
-    screen.hold("i", lambda: screen.number("way") > 1.5)
-    screen.press("p")
-    screen.shows(lambda: "The cable is pulled" in screen.text and screen.number("speed") == 0)
+    for far_m in (1.5, 1.7, 1.9, 2.1):
+        screen.hold("i", lambda: screen.number("way") > far_m)  # noqa: B023 - it is asked here
+        screen.press("p")
+        screen.shows(lambda: _stands_without_cable(screen.text) and screen.number("speed") == 0)
+        if _errs(screen):
+            return
+        screen.press("p")
+        screen.says("The cable is plugged in")
+
+
+def _stands_without_cable(text: str) -> bool:
+    return "The cable is pulled" in text and "Robot status count" in text
+
+
+def _errs(screen: Screen) -> bool:
+    """A grey arrow stands beside the rover's."""
+    pieces = (piece for line in screen.lines for piece in line)
+    return any(colour == "grey" and set(text) & set(ARROWS) for text, colour in pieces)
 
 
 def _touches_the_ball(screen: Screen) -> None:
@@ -272,6 +290,12 @@ def _stops(screen: Screen) -> None:
 
 def _wanders(screen: Screen) -> None:
     screen.shows(lambda: screen.number("way") > 4)
+    assert "bumps" in screen.text and screen.number("bumps") == 0, screen.text
+
+
+def _draws_the_room(screen: Screen) -> None:
+    screen.says("its walls are green")
+    screen.shows(lambda: screen.number("way") > 9)
     assert "bumps" in screen.text and screen.number("bumps") == 0, screen.text
 
 
@@ -385,6 +409,15 @@ WINS = (
         "The map of a room. The rover has gone along a wall by itself, and the map counts no bump.",
         "--room 35",
     ),
+    Win(
+        12,
+        "frames",
+        (VOICE, WANDERER, MAPPER),
+        _draws_the_room,
+        "The map of a room, in which the walls that your node has drawn are green. After Ctrl-C the"
+        " room stands there as your node has drawn it.",
+        "--room 35",
+    ),
 )
 
 
@@ -402,6 +435,9 @@ def seen(win: Win, home: Path) -> list[Shot]:
         _has_passed(home / "roslings_ws", part)
     with started(home, win.words) as screen:
         win.play(screen)
+        if win.day == 12:
+            lines = _without_end(screen.lines)
+            return [Shot(win.typed, lines), Shot(win.typed, _drawn_room(screen.interrupt()))]
         if win.day != 9:
             return [Shot(win.typed, _without_end(screen.lines))]
         told = screen.interrupt()
@@ -410,6 +446,12 @@ def seen(win: Win, home: Path) -> list[Shot]:
         Shot(win.typed, [[(line, "")] for line in told[went : went + 2]]),
         _read(home),
     ]
+
+
+def _drawn_room(told: Sequence[str]) -> list[Line]:
+    """What is said at the end, from the place of the rover on; its last lines are the room."""
+    begin = next(number for number, line in enumerate(told) if line.startswith("Your rover"))
+    return _without_end([[(line, "")] for line in told[begin:]])
 
 
 def _has_passed(workspace: Path, part: RoverPart) -> None:
@@ -495,10 +537,10 @@ def shots_of(svg: str) -> list[Shot]:
 def words_of(shots: Sequence[Shot]) -> list[str]:
     """All words beside and below the maps, of numbers only that they are there.
 
-    The map itself is left out: each drive is a little different.
+    The map itself is left out, and the drawn room: each drive is a little different.
     """
     lines = [plain(line) for shot in shots for line in shot.lines]
-    beside = [re.sub(r"^[|+].*[|+]", "", line) for line in lines]
+    beside = [re.sub(r"^[|+].*[|+]|^[#. ]+$", "", line) for line in lines]
     return [" ".join(NUMBER.sub("0", line).split()) for line in beside if line.strip()]
 
 

@@ -153,6 +153,12 @@ class Carried:
         self.node.create_subscription(cls, topic, found.append, qos_profile_sensor_data)
         return found
 
+    def another_node(self, name: str) -> Any:
+        """A node beside the tester, that does nothing."""
+        import rclpy
+
+        return rclpy.create_node(name, context=self._context)
+
     def wait_for_service(self, cls: Any, service: str) -> Any:
         """A client of it."""
         client = self.node.create_client(cls, service)

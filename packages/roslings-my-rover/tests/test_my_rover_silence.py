@@ -105,5 +105,5 @@ def test_each_line_fits_on_the_map(clock: Clock) -> None:
     silence.expect(wired(PARTS, mark="_1a2b3c").robot.steady)
     clock.now_s += 0.5
     lines = passed(silence, clock, FIRST_WITHIN_S + 1)
-    assert len(lines) == 7 and max(map(len, lines)) <= 80, lines
+    assert len(lines) == 8 and max(map(len, lines)) <= 80, lines
     assert "1a2b3c" not in " ".join(lines)

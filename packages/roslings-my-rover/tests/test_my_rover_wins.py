@@ -21,6 +21,7 @@ from roslings_my_rover.parts import (
     EYES,
     GUARD,
     LIMITER,
+    MAPPER,
     PACE,
     PARTS,
     PILOT,
@@ -130,6 +131,22 @@ def wanders(rover: Carried) -> bool:
     return went and "Bump" not in rover.heard
 
 
+def draws_the_room(rover: Carried) -> bool:
+    """After Ctrl-C, what it has seen from one place stands there in letters."""
+    from nav_msgs.msg import OccupancyGrid
+
+    maps = rover.hear(OccupancyGrid, "/map")
+    if not rover.drive(0.0, 0.5, until_it=lambda: len(maps) > 3):
+        return False
+    rover.interrupt()
+    return walls_drawn(rover) > 300
+
+
+def walls_drawn(rover: Carried) -> int:
+    """How many cells of walls, as it says at its end."""
+    return int(re.findall(r"^Your mapper has drawn (\d+) cells of walls", rover.heard, re.M)[0])
+
+
 @dataclass(frozen=True)
 class Win:
     """What one sees of a part, and a wrong package in which one does not."""
@@ -153,6 +170,7 @@ WINS = [
     Win(LIMITER, keeps_to_its_limit, "forward_without_limit"),
     Win(GUARD, stops_at_the_button, "button_topic_misspelt", keys=True),
     Win(WANDERER, wanders, "commands_misspelt", ("--room", "35")),
+    Win(MAPPER, draws_the_room, "map_misspelt", ("--room", "35")),
 ]
 IDS = [win.part.name for win in WINS]
 LOOKED_FOR = [win for win in WINS if win.without and win.part is not VOICE]
@@ -209,6 +227,21 @@ def test_without_the_part_it_is_not(workspace: Path, win: Win) -> None:
     with carried(workspace, *win.words, keys=win.keys) as rover:
         rover.patience_s = CHANCE_S
         assert not win.seen(rover), rover.heard
+
+
+def test_it_draws_the_room_that_it_drives_through(workspace: Path) -> None:
+    """By the parts of two days, with nobody at the keys: its own scans lead it, and are drawn."""
+    carries(workspace, WANDERER, MAPPER)
+    with carried(workspace, "--room", "35") as rover:
+        assert wanders(rover), rover.heard
+        assert rover.interrupt() == 0
+        assert " ended" not in rover.heard and "hangs?" not in rover.heard, rover.heard
+        assert "type is missing" not in rover.heard  # of /tf, which the part says
+    assert walls_drawn(rover) > 600, rover.heard
+    _, _, drawn = rover.heard.rpartition("free ones:\n")
+    lines = drawn.splitlines()
+    assert len(lines) > 10 and max(map(len, lines)) <= 80, drawn
+    assert set("".join(lines)) <= set(" ·▀▄█"), drawn
 
 
 def near(rover: Carried, x_m: float, y_m: float, within_m: float = 0.3) -> bool:

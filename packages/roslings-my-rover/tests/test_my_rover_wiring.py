@@ -1,4 +1,4 @@
-"""The wiring of every rover that there can be: 256 sets of parts."""
+"""The wiring of every rover that there can be: each set of parts."""
 
 from __future__ import annotations
 
@@ -10,8 +10,30 @@ import pytest
 
 from roslings.capabilities.parameters.contract import ParameterWords
 from roslings.course import lab
-from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PARTS, PILOT, SONAR, RoverPart
-from roslings_my_rover.wiring import CHECKED, ENTRANCE, LIMITED, MOTORS, Wiring, new_mark, wired
+from roslings_my_rover.parts import (
+    CABLE,
+    EYES,
+    GUARD,
+    LIMITER,
+    MAPPER,
+    PARTS,
+    PILOT,
+    SONAR,
+    RoverPart,
+)
+from roslings_my_rover.robot import SAYS_FRAMES
+from roslings_my_rover.wiring import (
+    CHECKED,
+    DRAWN_MAP,
+    ENTRANCE,
+    LIMITED,
+    MOTORS,
+    Wiring,
+    new_mark,
+    wired,
+)
+from roslings_rover.models.differential_drive import Pose
+from roslings_rover.rover.frames import LASER_ON_BODY, TF, TF_STATIC
 
 SETS = [frozenset(some) for n in range(len(PARTS) + 1) for some in combinations(PARTS, n)]
 LINKS = {ENTRANCE, LIMITED, CHECKED, MOTORS}
@@ -82,6 +104,7 @@ def test_what_is_said_steadily_is_promised_by_a_card() -> None:
     told = {
         "distance_subscriber": "one message for each distance",
         "serial_bridge": "where the rover is",
+        "frames": "for each message on /odom",
     }
     for each in wired(PARTS, mark=MARK).robot.steady:
         part = next(part for part in PARTS if each.program in part.programs)
@@ -92,13 +115,14 @@ def test_what_is_said_steadily_is_promised_by_a_card() -> None:
 
 
 def test_what_a_part_does_the_robot_does_not() -> None:
-    """Odometry, pictures and the time of the wheels have one source each."""
+    """Odometry, frames, pictures and the time of the wheels have one source each."""
     for parts in SETS:
         robot = wired(parts).robot
         assert robot.says_odom == (CABLE not in parts) == bool(robot.hears)
         assert robot.believes == (CABLE in parts)
         assert robot.shows_pictures == (EYES not in parts)
         assert robot.says_echo == (SONAR in parts)
+        assert robot.says_frames == (MAPPER not in parts) != robot.hears_map
 
 
 def test_the_names_are_those_of_the_cards() -> None:
@@ -114,6 +138,27 @@ def test_the_names_are_those_of_the_cards() -> None:
     assert lab(PILOT.lab).card.node("drive_server").publishes[0].topic == ENTRANCE
     assert lab(CABLE.lab).card.node("serial_bridge").of(ParameterWords).parameter("port")
     assert lab(EYES.lab).card.node("camera").of(ParameterWords).parameter("device")
+    said = {each.topic for each in lab(MAPPER.lab).card.node("frames").publishes}
+    assert {DRAWN_MAP, TF, TF_STATIC} <= said and MAPPER.programs == (SAYS_FRAMES,)
+
+
+def test_the_mapper_is_told_where_the_laser_of_this_rover_sits() -> None:
+    """By the parameters of its card, each a double; as the rover's own frames say it."""
+    node = lab(MAPPER.lab).card.node("frames").of(ParameterWords)
+    told = dict(wired([MAPPER]).programs["frames"].parameters)
+    assert told.keys() == {each.name for each in node.parameters}
+    assert all(
+        "." in value and node.parameter(name).type == "double" for name, value in told.items()
+    )
+    place = Pose(*(float(told[f"laser_{name}"]) for name in ("x", "y", "yaw")))
+    assert place == LASER_ON_BODY
+
+
+def test_who_says_frames_rests_with_a_pulled_cable() -> None:
+    """Without odometry there is no step to say: then nobody is blamed."""
+    for parts in ((MAPPER,), (MAPPER, CABLE)):
+        (frames,) = (each for each in wired(parts).robot.steady if each.topic == TF)
+        assert frames.by_cable == (CABLE in parts)
 
 
 def test_an_argument_is_written_as_ros_takes_it() -> None:

@@ -14,7 +14,7 @@ from roslings_my_rover.chosen import ChosenParts, NoPart
 from roslings_my_rover.crew import Crew, working
 from roslings_my_rover.drive_bag import NAME
 from roslings_my_rover.installing import BrokenPart, build_all
-from roslings_my_rover.parts import CABLE, EYES, RoverPart
+from roslings_my_rover.parts import CABLE, EYES, MAPPER, RoverPart
 from roslings_my_rover.robot import MyRover, node_for
 from roslings_my_rover.silence import Silent
 from roslings_rover.board import Board, Mega
@@ -102,7 +102,8 @@ class Assembled:
         self.shown.forget()
         for ended in self.crew.look():
             self.node.connect(self.crew.wiring.robot)
-            self.shown.tell(ended.line)
+            then = self.node.about_frames if ended.part is MAPPER else ""
+            self.shown.tell(f"{ended.line}\n{then}".rstrip())
         gone = {each.program for each in self.crew.ended}
         silent = (each for each in self.node.silent(self.plugged) if each.program not in gone)
         self.shown.parts(self.crew, tuple(silent))
@@ -149,8 +150,17 @@ class PartsCaption:
                 remark = "is silent"
             elif not crew.runs(each.part):
                 remark = remark or "rests: see --room"
+            elif each.part is MAPPER:
+                remark = remark or self._about_map
             yield f"{each.part.name:8} {remark}".rstrip()
         yield from (each.line for each in self._choice.absent)
+
+    @property
+    def _about_map(self) -> str:
+        """How its walls look on the map; at most 23 columns."""
+        if self._node.no_map:
+            return "its /map is no map"
+        return "its walls are green" if self._node.drawn_walls else ""
 
 
 @contextmanager

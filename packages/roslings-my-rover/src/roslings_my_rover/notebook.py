@@ -16,6 +16,7 @@ from roslings_my_rover.assembled import Assembled, RoverOptions, assembled, star
 from roslings_my_rover.chosen import ChosenParts, NoPart, chosen
 from roslings_rover.rover.live_map import LiveMap
 from roslings_rover.rover.rover import Rover
+from roslings_rover.rover.text_map import DrawnWalls
 
 
 class LiveMyRover(LiveMap[Assembled]):
@@ -27,6 +28,10 @@ class LiveMyRover(LiveMap[Assembled]):
     @property
     def _rover(self) -> Rover:
         return self._turned.node.rover
+
+    @property
+    def _drawn_walls(self) -> DrawnWalls | None:
+        return self._turned.node.drawn_walls
 
     @property
     def parts(self) -> list[str]:

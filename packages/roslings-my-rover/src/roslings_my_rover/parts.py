@@ -54,7 +54,8 @@ WANDERER = RoverPart(
     "goes along the walls of a room that it has never seen",
     only_in_rooms=True,
 )
-PARTS = (VOICE, SONAR, PACE, PILOT, CABLE, EYES, LIMITER, GUARD, WANDERER)
+MAPPER = RoverPart("mapper", "frames", ("frames",), "draws the room that its laser has seen")
+PARTS = (VOICE, SONAR, PACE, PILOT, CABLE, EYES, LIMITER, GUARD, WANDERER, MAPPER)
 """In the order of the days. The talker and the black box are no parts: one only chats, the other
 reads what the rover has left behind."""
 

@@ -5,24 +5,39 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from ros2_on_pip.interfaces import class_of
+from ros2_on_pip.interfaces import UnknownInterface, class_of
+from roslings_my_rover.drawn_room import DrawnRoom, NoMap, drawn_room
 from roslings_my_rover.mirror import Mirror
 from roslings_my_rover.silence import Silence, Silent
-from roslings_my_rover.wiring import ENTRANCE, LINKS, ODOMETRY, OWNED, STATUS, RoverWiring, Steady
+from roslings_my_rover.wiring import (
+    DRAWN_MAP,
+    ENTRANCE,
+    LINKS,
+    ODOMETRY,
+    OWNED,
+    STATUS,
+    RoverWiring,
+    Steady,
+)
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.frames import FrameOptions
 from roslings_rover.rover.in_room import RoomRover
+from roslings_rover.rover.messages import ODOM_FRAME
 from roslings_rover.rover.room_node import RoomNode
 from roslings_rover.rover.rover import Rover
 from roslings_rover.rover.subscriptions import LONGEST_SENTENCE, SENTENCE_LASTS_S, HeardSentence
+from roslings_rover.rover.text_map import DrawnWalls
 
 SPEED_OF_SOUND_M_S = 343.0
 ECHO_EVERY_S = 0.1
 MIRRORS_LOOK_EVERY_S = 0.2
+SAYS_FRAMES = "frames"
+"""The node of day 12, by its card."""
 __all__ = ["STATUS", "MyRover"]
 
 
@@ -33,6 +48,11 @@ class MyRover(DrivenRover):
     wiring: RoverWiring = field(default_factory=RoverWiring)
     told: str = ""
     """What has just happened to a part; a command does not wipe it away."""
+    drawn: DrawnRoom | None = None
+    """The room by the newest /map of its part, also when that is gone."""
+    no_map: str = ""
+    """Why the newest /map cannot be drawn."""
+    _had_mapper: bool = False
     _clash: str = ""
     _believed: Pose | None = None
     _status: HeardSentence | None = None
@@ -50,6 +70,23 @@ class MyRover(DrivenRover):
     def believed(self) -> Pose | None:
         """Where the student's bridge thinks that the rover is; None where no bridge says it."""
         return self._believed if self.wiring.believes else None
+
+    @property
+    def drawn_walls(self) -> DrawnWalls | None:
+        """Those that the part has drawn where the rover is: in another frame they lie elsewhere."""
+        return self.drawn.walls_m if self.drawn and self.drawn.frame == ODOM_FRAME else None
+
+    @property
+    def lacks_tf(self) -> bool:
+        """A part that says it is there: then it is not missed."""
+        return self.wiring.says_frames and super().lacks_tf
+
+    @property
+    def about_frames(self) -> str:
+        """Who says the frames when their part has ended; at most 80 columns."""
+        if self.publishes_tf:
+            return "Now the rover itself says /tf and /tf_static."
+        return "" if self.lacks_tf else "Nobody says /tf now: you typed --no-tf."
 
     def silent(self, plugged: bool) -> tuple[Silent, ...]:
         """Whose messages are missing now."""
@@ -87,7 +124,17 @@ class MyRover(DrivenRover):
             self._links.append(node.create_subscription(Twist, wiring.hears, self._hear, 10))
         if wiring.believes:
             self._links.append(node.create_subscription(Odometry, "odom", self._take_odom, 10))
-        self._links += [self._listening(each) for each in wiring.steady if not each.by_cable]
+        if wiring.hears_map:
+            self._had_mapper = True
+            grid = class_of("nav_msgs/msg/OccupancyGrid", "msg")
+            map_heard = node.create_subscription(
+                grid, DRAWN_MAP, self._take_map, qos_profile_sensor_data
+            )
+            self._links.append(map_heard)
+        for each in wiring.steady:
+            if each.topic != ODOMETRY:  # that is heard to the last number
+                with suppress(UnknownInterface):  # without its type its program has ended, too
+                    self._links.append(self._listening(each))
         self._silence.expect(wiring.steady)
         self._mirrors = [Mirror(node, shown, link) for shown, link in wiring.links if shown != link]
         self._odom = node.create_publisher(Odometry, "odom", 10) if wiring.says_odom else None
@@ -169,7 +216,7 @@ class MyRover(DrivenRover):
         if self._clash and self.notice == self._clash:
             self.notice = ""
         owned = (*self.wiring.links, *zip(OWNED, OWNED, strict=True))
-        found = (*map(self._held_off, LINKS), *map(self._clash_on, owned))
+        found = (*map(self._held_off, LINKS), *map(self._clash_on, owned), self._second_frames())
         self._clash = next(filter(None, found), "")
         self.notice = self.notice or self._clash
 
@@ -188,6 +235,15 @@ class MyRover(DrivenRover):
             return ""
         return f"{_listed(names)} both say {shown}. End what does not belong there."
 
+    def _second_frames(self) -> str:
+        """Who says the same frames once more: each step of the tree has one voice."""
+        count = self._node.get_node_names().count(SAYS_FRAMES)
+        if self.wiring.hears_map and count > 1:
+            return f"Two nodes /{SAYS_FRAMES} say /tf: one is in your rover. End the other one."
+        if self.publishes_tf and count and not self._had_mapper:
+            return f"/{SAYS_FRAMES} and the rover both say /tf. Start the rover with --no-tf."
+        return ""
+
     def _say_echo(self) -> None:
         """The seconds until the echo came back; NaN where none was understood."""
         if self._echo is None:
@@ -202,6 +258,12 @@ class MyRover(DrivenRover):
         line = "".join(letter for letter in " ".join(said.data.split()) if letter.isprintable())
         self._status = HeardSentence(line[:LONGEST_SENTENCE], STATUS)
         self._status_s = time.monotonic()
+
+    def _take_map(self, grid: Any) -> None:
+        try:
+            self.drawn, self.no_map = drawn_room(grid), ""
+        except NoMap as error:
+            self.drawn, self.no_map = None, str(error)
 
     def _take_odom(self, told: Any) -> None:
         """A part may say anything: what is no number is no place."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
@@ -11,13 +13,20 @@ from roslings_my_rover.assembled import Assembled, RoverOptions, assembled, star
 from roslings_my_rover.chosen import ChosenParts
 from roslings_my_rover.drive_bag import kept, require_place
 from roslings_my_rover.hands import TOLD, hands
+from roslings_my_rover.parts import MAPPER
 from roslings_rover.rover.displays import opened
 from roslings_rover.rover.driven import DrivenRover
 from roslings_rover.rover.map_display import Display, View, shown_until
 from roslings_rover.rover.one_rover import rover_of_terminal
 from roslings_rover.rover.rover import Rover
+from roslings_rover.rover.text_map import letters_for
 from roslings_rover.rover.words import at_its_end
 from roslings_rover.stop_signal import listening
+
+MOST_COLUMNS = 80
+LINES_AROUND = 7
+"""What else is said at the end, and the next prompt."""
+LEAST_LINES = 12
 
 
 def run(
@@ -53,6 +62,8 @@ def run(
             print(ended.line)
         if made.crew.bag:
             print(kept(made.crew.bag))
+        for line in _drawn(made):
+            print(line)
         return made.node.rover
 
 
@@ -69,6 +80,21 @@ def _told(choice: ChosenParts, wish: RoverOptions) -> Iterator[Assembled]:
             for line in left_out:
                 print(line, flush=True)
         yield made
+
+
+def _drawn(made: Assembled) -> Iterator[str]:
+    """The room as the part has drawn it, below what is said of it; nothing without the part."""
+    node = made.node
+    if not any(each.chosen.part is MAPPER for each in made.crew.built):
+        return
+    if node.drawn is None:
+        yield "Your mapper has drawn nothing."
+        yield node.no_map or "It has said nothing on /map."
+        return
+    yield f"Your mapper has drawn {node.drawn.counts}:"
+    columns, lines = shutil.get_terminal_size()
+    size = min(columns, MOST_COLUMNS), max(lines - LINES_AROUND, LEAST_LINES)
+    yield from node.drawn.lines(*size, letters_for(sys.stdout.encoding))
 
 
 def _go_on(

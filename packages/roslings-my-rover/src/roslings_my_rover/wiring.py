@@ -14,7 +14,18 @@ import secrets
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
-from roslings_my_rover.parts import CABLE, EYES, GUARD, LIMITER, PACE, SONAR, VOICE, RoverPart
+from roslings_my_rover.parts import (
+    CABLE,
+    EYES,
+    GUARD,
+    LIMITER,
+    MAPPER,
+    PACE,
+    SONAR,
+    VOICE,
+    RoverPart,
+)
+from roslings_rover.rover.frames import LASER_ON_BODY, TF
 
 ENTRANCE = "/cmd_vel"
 LIMITED = "/rover/limited"
@@ -24,7 +35,7 @@ MOTORS = "/rover/motors"
 LINKS = (LIMITED, CHECKED, MOTORS)
 """Inside of the rover: each has one publisher, and nobody else's command belongs there."""
 STATUS, DISTANCE, OBSTACLE = "/robot_status", "/distance_sensor/distance", "/obstacle"
-MOTOR_STATE, ODOMETRY, BEACON = "/motor_state", "/odom", "/beacon"
+MOTOR_STATE, ODOMETRY, BEACON, DRAWN_MAP = "/motor_state", "/odom", "/beacon", "/map"
 OWNED = (OBSTACLE, MOTOR_STATE, ODOMETRY, "/e_stop")
 """Others act by these, so two who speak there are told; one from a terminal may try it alone."""
 BEFORE_THE_RELAY = (PACE, SONAR, GUARD)
@@ -76,6 +87,8 @@ class RoverWiring:
     says_echo: bool = False
     says_frames: bool = True
     """On /tf and /tf_static, where their type is there."""
+    hears_map: bool = False
+    """It shows on its own map what the part has drawn on /map."""
     believes: bool = False
     """It hears /odom, and shows where the part thinks that it is."""
     links: tuple[tuple[str, str], ...] = ()
@@ -127,16 +140,28 @@ def wired(parts: Collection[RoverPart], port: str = "", device: str = "", mark: 
         programs["serial_bridge"] = StartArguments((("cmd_vel", link),), (("port", port),))
     if EYES in parts:
         programs["camera"] = StartArguments(parameters=(("device", device),))
+    if MAPPER in parts:
+        programs["frames"] = StartArguments(parameters=tuple(_of_the_laser()))
     robot = RoverWiring(
         hears="" if CABLE in parts else link,
         says_odom=CABLE not in parts,
         shows_pictures=EYES not in parts,
         says_echo=SONAR in parts,
+        says_frames=MAPPER not in parts,
+        hears_map=MAPPER in parts,
         believes=CABLE in parts,
         links=tuple((each, each + mark) for each in used),
         steady=tuple(_steady(parts, mark)),
     )
     return Wiring(robot, programs, relay)
+
+
+def _of_the_laser() -> Iterator[tuple[str, str]]:
+    """Where it sits, as the card of day 12 calls it; each with a point, which makes it a double."""
+    place = LASER_ON_BODY
+    yield "laser_x", str(place.x_m)
+    yield "laser_y", str(place.y_m)
+    yield "laser_yaw", str(place.heading_rad)
 
 
 def _steady(parts: Collection[RoverPart], mark: str) -> Iterator[Steady]:
@@ -154,3 +179,6 @@ def _steady(parts: Collection[RoverPart], mark: str) -> Iterator[Steady]:
         yield Steady("beacon", BEACON, "std_msgs/msg/String")
     if GUARD in parts:
         yield Steady("guard", MOTORS, "geometry_msgs/msg/Twist", link=MOTORS + mark)
+    if MAPPER in parts:
+        # It says a step for each odometry, which a pulled cable holds up.
+        yield Steady("frames", TF, "tf2_msgs/msg/TFMessage", by_cable=CABLE in parts)

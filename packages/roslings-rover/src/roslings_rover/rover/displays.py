@@ -52,7 +52,8 @@ class RoverMapWindow(MapWindow):
     def show(self, node: DrivenRover) -> None:
         """Move the rover and its path."""
         moving = moving_in(node.rover.world)
-        now = (node.rover.pose, news(node), position(node), heard(node), moving)
+        told = (news(node), position(node), heard(node))
+        now = (node.rover.pose, told, moving, node.drawn_walls)
         if now != self._shown:
             self._shown = now
             path = [*node.rover.path, node.rover.pose]
@@ -62,9 +63,11 @@ class RoverMapWindow(MapWindow):
         self._flush()
 
     def _drawn(self, node: DrivenRover) -> Iterator[Any]:
-        """What moves, the rover, and over it what it hears."""
-        from roslings_rover.rover.picture import draw_moving, draw_rover
+        """What somebody has drawn, what moves, the rover, and over it what it hears."""
+        from roslings_rover.rover.picture import DRAWN, draw_moving, draw_rover
 
+        if walls := node.drawn_walls:
+            yield from self._axes.plot(walls.x_m, walls.y_m, "s", color=DRAWN, markersize=2)
         yield from draw_moving(node.rover.world, self._axes)
         yield from draw_rover(node.rover, self._axes)
         yield self._words_over(node.rover.pose, heard(node), 18)
@@ -85,8 +88,9 @@ class Terminal(MapTerminal):
 
     def show(self, node: DrivenRover) -> None:
         """Draw map and words anew, as large as the terminal is now."""
-        drawn = cells(node.rover, *self._size, self._letters, heard(node), node.believed)
-        self._put(drawn, beside(node), below(node), bold=bool(node.notice))
+        said, walls = heard(node), node.drawn_walls
+        shown = cells(node.rover, *self._size, self._letters, said, node.believed, walls)
+        self._put(shown, beside(node), below(node), bold=bool(node.notice))
 
 
 class Lines(NewsLines):

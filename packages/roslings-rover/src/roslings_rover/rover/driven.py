@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.models.world import Ball
 from roslings_rover.rover.node import RoverNode
+from roslings_rover.rover.text_map import DrawnWalls
 
 LOOK_FOR_DRIVERS_EVERY_S = 0.5
 LEAVES_M = 0.3
@@ -60,6 +61,11 @@ class DrivenRover(RoverNode):
         Its own odometry, where that drifts.
         """
         return self.odometer.pose if self.frames.drift_percent else None
+
+    @property
+    def drawn_walls(self) -> DrawnWalls | None:
+        """What somebody has drawn of the room; None where nobody draws."""
+        return None
 
     def _open_timers(self) -> None:
         super()._open_timers()

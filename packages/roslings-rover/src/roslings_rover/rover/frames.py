@@ -16,6 +16,8 @@ from roslings_rover.rover.messages import BODY_FRAME, LASER_FRAME, ODOM_FRAME, t
 
 MAP_FRAME, CAMERA_FRAME = "map", "camera_optical"
 TF, TF_STATIC = "/tf", "/tf_static"
+LASER_ON_BODY = Pose()
+"""Where the laser sits on the rover, and where its 0 looks: in the middle, and ahead."""
 LASER_HEIGHT_M = 0.15
 OPTICAL = (-0.5, 0.5, -0.5, 0.5)
 """The axes of a picture, as x, y, z, w: z looks ahead, x to the right, y down (REP 103)."""
@@ -73,7 +75,7 @@ def frame_publishers(node: Any, map_frame: bool) -> FramePublishers | None:
 
 def mounted(stamp: Any) -> Iterator[Any]:
     """Where laser and camera sit on the rover: geometry_msgs/msg/TransformStamped."""
-    laser = step_of(BODY_FRAME, LASER_FRAME, Pose(), stamp)
+    laser = step_of(BODY_FRAME, LASER_FRAME, LASER_ON_BODY, stamp)
     laser.transform.translation.z = LASER_HEIGHT_M
     yield laser
     model = PinholeCameraModel()

@@ -11,6 +11,7 @@ from roslings_rover.models.differential_drive import Pose
 from roslings_rover.rover.moving_map import moving_map
 from roslings_rover.rover.one_rover import rover_of_cell
 from roslings_rover.rover.rover import Rover, RoverMoment
+from roslings_rover.rover.text_map import DrawnWalls
 
 
 class Turned(Protocol):
@@ -50,6 +51,11 @@ class LiveMap(ABC, Generic[T]):
         """What moves."""
 
     @property
+    def _drawn_walls(self) -> DrawnWalls | None:
+        """What somebody has drawn of the room; None where nobody draws."""
+        return None
+
+    @property
     def pose(self) -> Pose:
         """Where it is now."""
         return self._rover.pose
@@ -62,8 +68,8 @@ class LiveMap(ABC, Generic[T]):
 
     def map(self, moves: bool = True) -> str:
         """The map as an SVG file, in which the drive until now is seen once more if it `moves`."""
-        rover = self._rover
-        return moving_map(rover.world, self.trail, rover.body.radius_m, moves=moves)
+        rover, walls = self._rover, self._drawn_walls
+        return moving_map(rover.world, self.trail, rover.body.radius_m, moves=moves, drawn=walls)
 
     def stop(self) -> None:
         """End it. The map stays."""

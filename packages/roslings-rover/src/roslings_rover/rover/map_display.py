@@ -18,7 +18,7 @@ from typing import Any, Literal, Protocol, TextIO, TypeVar
 from roslings_rover.errors import DeviceTrouble
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.models.world import World, colour_of
-from roslings_rover.rover.text_map import ASCII, FLOOR, UNICODE, MapCell
+from roslings_rover.rover.text_map import FLOOR, MapCell, letters_for
 
 View = Literal["auto", "window", "terminal", "lines"]
 Place = Literal["window", "terminal", "lines"]
@@ -32,6 +32,7 @@ LEAST_COLUMNS = 60
 STYLES = {
     "floor": "",
     "wall": "bright_black",
+    "drawn": "green",
     "path": "cyan",
     "rover": "bold yellow",
     "moving": "bold red",
@@ -190,8 +191,7 @@ class MapTerminal:
 
         self._console = Console()
         self._live = Live(console=self._console, screen=True, auto_refresh=False)
-        encoding = (self._console.encoding or "").lower().replace("-", "")
-        self._letters = UNICODE if encoding.startswith("utf") else ASCII
+        self._letters = letters_for(self._console.encoding)
 
     def __enter__(self: Terminal) -> Terminal:
         self._live.__enter__()
@@ -213,7 +213,8 @@ class MapTerminal:
         from rich.text import Text
 
         columns, lines = self._console.size
-        rows = _as_high(drawn, len(words[: lines - 3]))
+        words = without_gaps(words, lines - 3)
+        rows = _as_high(drawn, len(words))
         text = Text(no_wrap=True, overflow="crop")
         for row, word in zip(rows, _filled(words, len(rows)), strict=True):
             _append_row(text, row)
@@ -225,6 +226,15 @@ class MapTerminal:
 def _as_high(drawn: list[list[MapCell]], lines: int) -> list[list[MapCell]]:
     """The map, with empty lines below it where the words beside it need them."""
     return [*drawn, *[[FLOOR] * len(drawn[0])] * (lines - len(drawn))]
+
+
+def without_gaps(words: list[str], lines: int) -> list[str]:
+    """At most so many lines: the empty ones go first, from below."""
+    kept = [*words]
+    for number in reversed(range(len(words))):
+        if len(kept) > lines and not words[number]:
+            del kept[number]
+    return kept[:lines]
 
 
 def _within(words: list[str], columns: int) -> list[str]:

@@ -15,8 +15,9 @@ from itertools import accumulate, pairwise
 
 from roslings_rover.models.rooms import moving_in
 from roslings_rover.models.world import Ball, Box, Circle, World
-from roslings_rover.rover.picture import MOVING, OBSTACLE, PATH, ROVER, WALL
+from roslings_rover.rover.picture import DRAWN, MOVING, OBSTACLE, PATH, ROVER, WALL
 from roslings_rover.rover.rover import RoverMoment
+from roslings_rover.rover.text_map import DrawnWalls
 
 PX_PER_M = 50.0
 MARGIN_M = 0.3
@@ -25,6 +26,8 @@ LONGEST_S = 5.0
 LONGEST_REST_S = 0.5
 """A rest is not worth watching for longer."""
 MOST_FRAMES = 120
+DRAWN_LOOK = f'class="drawn" stroke="{DRAWN}" stroke-width="2.5" stroke-linecap="square"'
+"""In the mark itself: most maps have none of them."""
 
 STYLE = f"""
 text {{ font: 13px system-ui, sans-serif; fill: #444; }}
@@ -82,11 +85,12 @@ def moving_map(
     *,
     dots: bool = False,
     moves: bool = True,
+    drawn: DrawnWalls | None = None,
 ) -> str:
     """An `svg` element: the room, the way from the first moment to the last, the rover at its end.
 
     `radius_m` is the rover's; `dots` marks each place of the trail; without `moves` the drive is
-    over already. Raises ValueError without a moment.
+    over already. Walls that somebody has `drawn` are green. Raises ValueError without a moment.
     """
     if not trail:
         raise ValueError("a map needs one moment at least")
@@ -99,9 +103,10 @@ def moving_map(
             f"<style>{STYLE}{_motion(sheet, trail) if moves else ''}</style>",
             *_axes(sheet),
             *_room(sheet, world),
+            *_drawn(sheet, drawn),
             *_way(sheet, trail, dots),
             _rover(sheet, trail[-1], radius_m),
-            *_legend(world),
+            *_legend(world, drawn),
             "</svg>",
         ]
     )
@@ -143,6 +148,14 @@ def _room(sheet: _Sheet, world: World) -> Iterator[str]:
         yield _disc(sheet, thing, f'fill="{MOVING}" stroke="{WALL}"')
 
 
+def _drawn(sheet: _Sheet, drawn: DrawnWalls | None) -> Iterator[str]:
+    """A dot for each square: a line without length has the form of its ends."""
+    if drawn:
+        places = zip(drawn.x_m.tolist(), drawn.y_m.tolist(), strict=True)
+        dots = (sheet.at(x_m, y_m) for x_m, y_m in places)
+        yield f'<path {DRAWN_LOOK} d="{"".join(f"M{x:g} {y:g}h0" for x, y in dots)}"/>'
+
+
 def _box(sheet: _Sheet, box: Box, kind: str) -> str:
     (left, top), (right, low) = sheet.at(box.west_m, box.north_m), sheet.at(box.east_m, box.south_m)
     return (
@@ -180,7 +193,7 @@ def _rover(sheet: _Sheet, last: RoverMoment, radius_m: float) -> str:
     )
 
 
-def _legend(world: World) -> Iterator[str]:
+def _legend(world: World, drawn: DrawnWalls | None) -> Iterator[str]:
     marks = [
         ('<path class="way" d="M0 -4H20"/>', "path"),
         ('<circle class="place" cx="10" cy="-4" r="4"/>', "start"),
@@ -191,6 +204,8 @@ def _legend(world: World) -> Iterator[str]:
         marks.append((f'<circle cx="10" cy="-4" r="5" fill="{ball}"/>', "ball"))
     if moving_in(world):
         marks.append((f'<circle cx="10" cy="-4" r="6" fill="{MOVING}"/>', "moves"))
+    if drawn:
+        marks.append((f'<path {DRAWN_LOOK} d="M4 -4H16"/>', "drawn"))
     for number, (mark, word) in enumerate(marks):
         x = LEFT_PX + number * 84
         yield f'<g transform="translate({x:g} 22)">{mark}<text x="27">{word}</text></g>'

@@ -105,6 +105,11 @@ class RoverNode:
         return self._frames is not None
 
     @property
+    def lacks_tf(self) -> bool:
+        """It would say it, and the type is missing."""
+        return self.frames.published and not self.publishes_tf
+
+    @property
     def sentence(self) -> HeardSentence | None:
         """What it hears somebody say; None where nobody says something, or it does not listen."""
         return self._subscriptions.sentence if self._subscriptions else None

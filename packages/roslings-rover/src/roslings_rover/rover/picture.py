@@ -13,6 +13,8 @@ from roslings_rover.rover.rover import Rover
 
 WALL, OBSTACLE, PATH, ROVER = "#444444", "#b8b8b8", "#1f77b4", "#0b2f6b"
 MOVING = "#c2571a"
+DRAWN = "#2e7d32"
+"""Walls that somebody has drawn."""
 DOTS_PER_INCH = 100
 
 

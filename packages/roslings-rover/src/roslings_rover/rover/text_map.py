@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.models.rooms import moving_in
@@ -15,9 +16,12 @@ from roslings_rover.models.shape_arrays import Numbers, gaps
 from roslings_rover.models.world import Ball, Box, Circle, World
 from roslings_rover.rover.rover import Rover
 
+Flags = NDArray[np.bool_]
 Length = TypeVar("Length", float, Numbers)
-Kind = Literal["floor", "wall", "path", "ball", "moving", "believed", "rover", "said"]
+Kind = Literal["floor", "wall", "drawn", "path", "ball", "moving", "believed", "rover", "said"]
 ASIDE_M = 1e-6
+OUTSIDE_M = 0.3
+"""What is drawn so far outside of the room is still a wall of it; the rest is not shown."""
 LETTER_HEIGHT = 2.0
 """A letter in a terminal is about twice as high as it is wide."""
 
@@ -32,6 +36,14 @@ class MapCell:
 
 
 FLOOR = MapCell(" ", "floor")
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnWalls:
+    """Where somebody has drawn walls: the middles of small squares."""
+
+    x_m: Numbers
+    y_m: Numbers
 
 
 @dataclass(frozen=True)
@@ -49,12 +61,24 @@ class Letters:
     dots: bool
     """Braille dots draw the path four times as fine as letters."""
 
+    def of_halves(self, filled: Flags) -> Iterator[tuple[int, int, str]]:
+        """Line, column and letter of each letter that is filled, of which two rows are one line."""
+        upper, lower, both = self.halves
+        letters = " ", upper, lower, both
+        for line, column in np.argwhere(filled[::2] | filled[1::2]):
+            yield line, column, letters[filled[2 * line, column] + 2 * filled[2 * line + 1, column]]
+
 
 UNICODE = Letters(("┌", "┐", "└", "┘", "─", "│"), ("▀", "▄", "█"), "→↗↑↖←↙↓↘", "●", "◆", dots=True)
 ASCII = Letters(("+", "+", "+", "+", "-", "|"), ("#", "#", "#"), ">^<v", "o", "@", dots=False)
 BRAILLE = 0x2800
 DOT_BITS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
 """Unicode's bit for each dot, by row and column within a letter."""
+
+
+def letters_for(encoding: str | None) -> Letters:
+    """Those that can be written in an encoding."""
+    return UNICODE if (encoding or "").lower().replace("-", "").startswith("utf") else ASCII
 
 
 def size_for(world: World, columns: int, lines: int) -> tuple[int, int]:
@@ -78,13 +102,17 @@ def cells(
     letters: Letters,
     said: str = "",
     believed: Pose | None = None,
+    drawn: DrawnWalls | None = None,
 ) -> list[list[MapCell]]:
     """The map, letter by letter; what is `said` stands over the rover.
 
-    Where somebody believes it to be elsewhere, a second arrow stands there.
+    Where somebody believes it to be elsewhere, a second arrow stands there. What somebody has
+    `drawn` of the room lies over it.
     """
     sheet = TextMap(rover.world, *size_for(rover.world, columns, lines), letters)
     sheet.put_obstacles()
+    if drawn:
+        sheet.put_drawn(drawn)
     sheet.put_path(rover.path)
     for thing in moving_in(rover.world):
         sheet.put_moving(thing)
@@ -116,13 +144,17 @@ class TextMap:
 
     def put_obstacles(self) -> None:
         """Obstacles, half a letter fine; what is thinner than that is drawn all the same."""
-        upper, lower, both = self._letters.halves
-        letters = " ", upper, lower, both
         shown = [self._not_too_thin(each) for each in self._world.obstacles]
         blocked = gaps(shown, *self._half_letters()) <= 0
-        for line, column in np.argwhere(blocked[::2] | blocked[1::2]):
-            halves = blocked[2 * line, column] + 2 * blocked[2 * line + 1, column]
-            self._cells[line][column] = MapCell(letters[halves], "wall")
+        for line, column, letter in self._letters.of_halves(blocked):
+            self._cells[line][column] = MapCell(letter, "wall")
+
+    def put_drawn(self, drawn: DrawnWalls) -> None:
+        """Walls that somebody has drawn; a wall that stands there keeps its form."""
+        for line, column, letter in self._letters.of_halves(self._halves_of(drawn)):
+            stands = self._cells[line][column]
+            shown = stands.letter if stands.kind == "wall" else letter
+            self._cells[line][column] = MapCell(shown, "drawn")
 
     def put_path(self, path: list[Pose], hue: int | None = None) -> None:
         """Where the rover went; with a hue, where there are several."""
@@ -199,6 +231,17 @@ class TextMap:
         columns, rows = np.arange(self._wide) + 0.5, np.arange(2 * self._high) / 2 + 0.25
         x_m, y_m = self._place(columns, rows)
         return x_m[None, :], y_m[:, None]
+
+    def _halves_of(self, drawn: DrawnWalls) -> Flags:
+        """The half letters in which something is drawn."""
+        room, halves = self._world.room, np.zeros((2 * self._high, self._wide), bool)
+        across = (drawn.x_m - room.west_m) / (room.east_m - room.west_m) * self._wide
+        down = (room.north_m - drawn.y_m) / (room.north_m - room.south_m) * 2 * self._high
+        near = (drawn.x_m >= room.west_m - OUTSIDE_M) & (drawn.x_m <= room.east_m + OUTSIDE_M)
+        near &= (drawn.y_m >= room.south_m - OUTSIDE_M) & (drawn.y_m <= room.north_m + OUTSIDE_M)
+        columns = np.clip(across[near].astype(int), 0, self._wide - 1)
+        halves[np.clip(down[near].astype(int), 0, 2 * self._high - 1), columns] = True
+        return halves
 
     def _letters_between(self, thing: Circle) -> tuple[range, range]:
         """The columns and lines that something round reaches into."""

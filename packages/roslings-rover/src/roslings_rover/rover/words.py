@@ -65,7 +65,7 @@ def heard(node: RoverNode) -> str:
 
 def about_tf(node: RoverNode) -> tuple[str, ...]:
     """Why there is no /tf where somebody wants it; at most 32 columns each."""
-    if node.publishes_tf or not node.frames.published:
+    if not node.lacks_tf:
         return ()
     return ("no /tf: its type is missing.", *(f"  {step}" for step in next_steps()))
 
