@@ -1,4 +1,4 @@
-"""My rover of all eight parts: until it is ready, and what it takes while it drives.
+"""My rover of all its parts: until it is ready, and what it takes while it drives.
 
     .venv/bin/python tests/bench/my_rover.py [ROUNDS]
 
@@ -92,7 +92,7 @@ def main(rounds: int) -> None:
     """Print the figures."""
     with tempfile.TemporaryDirectory() as folder:
         workspace = Path(folder)
-        for name, parts in (("all eight parts", PARTS), ("the voice alone", (VOICE,))):
+        for name, parts in (("all parts", PARTS), ("the voice alone", (VOICE,))):
             put(workspace, parts)
             with running(workspace):
                 pass  # built from now on
