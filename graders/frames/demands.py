@@ -220,10 +220,13 @@ def answer_scans(topic: TopicContract, tree: TreeContract) -> Demand[ExperimentV
 
 
 def say_each_once(tf: TopicContract, walls: TopicContract) -> Demand[ExperimentView]:
-    """No step and no points with a stamp that they had already."""
+    """No step and no points with a stamp that they had already, and no message without a step."""
 
     def demand(experiment: ExperimentView) -> None:
         drive = _drive(experiment)
+        # The evidence keeps how many steps a message has: see SIZES.
+        if empty := sum(each.content == 0 for each in experiment.topic(tf).messages):
+            raise faults.SaysNothing(tf.topic, empty)
         again = sum(max(0, scan.answers - 1) for scan in drive.scans)
         if drive.told_again:
             raise faults.ToldAgain(tf.topic, "odometry", drive.told_again)

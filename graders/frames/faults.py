@@ -307,6 +307,19 @@ class ToldAgain(Fault):
 
 
 @dataclass(eq=False)
+class SaysNothing(Fault):
+    """A message of steps holds none."""
+
+    topic: str
+    count: int
+    was_seen = True
+    why = "Everybody who hears it takes each message, and looks for a step in it."
+    expected = "each message on {topic} has a step"
+    measured = plural("count", one="{count} has none", other="{count} have none")
+    hint = "What does your node send where it has no odometry to tell of?"
+
+
+@dataclass(eq=False)
 class OtherCount(Fault):
     """There are more points than distances, or fewer."""
 
