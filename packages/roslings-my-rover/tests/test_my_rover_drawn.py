@@ -18,7 +18,7 @@ from nav_msgs.msg import OccupancyGrid
 from test_my_rover_wins import carries, workspace
 
 from roslings.course import lab
-from roslings_my_rover.drawn_room import DrawnRoom, NoMap, drawn_room
+from roslings_my_rover.drawn_room import DrawnRoom, NotDrawable, drawn_room
 from roslings_my_rover.parts import MAPPER
 from roslings_my_rover.robot import MyRover
 from roslings_rover.models.differential_drive import Pose
@@ -73,10 +73,10 @@ def test_what_is_no_map_is_refused(spoilt: str) -> None:
         grid.info.origin.position.y = math.nan
     else:
         grid.info.resolution = 0.0 if spoilt == "resolution" else -0.05
-    with pytest.raises(NoMap) as told:
+    with pytest.raises(NotDrawable) as told:
         drawn_room(grid)
     assert len(str(told.value)) <= 80
-    with pytest.raises(NoMap):
+    with pytest.raises(NotDrawable):
         drawn_room(OccupancyGrid())
 
 

@@ -20,7 +20,7 @@ MOST_CELLS = 4_000_000
 """A larger map would hold up the rover."""
 
 
-class NoMap(Exception):
+class NotDrawable(Exception):
     """A message that cannot be drawn; its text is what is wrong, at most 60 columns."""
 
 
@@ -56,16 +56,16 @@ class DrawnRoom:
 
 
 def drawn_room(grid: Any) -> DrawnRoom:
-    """What a nav_msgs/msg/OccupancyGrid says. Raises NoMap."""
+    """What a nav_msgs/msg/OccupancyGrid says. Raises NotDrawable."""
     info = grid.info
     wide, high, count = info.width, info.height, len(grid.data)
     if not count or count != wide * high:
-        raise NoMap(f"/map has {count} cells, and not {wide} x {high}.")
+        raise NotDrawable(f"/map has {count} cells, and not {wide} x {high}.")
     if count > MOST_CELLS:
-        raise NoMap(f"/map has {count} cells: that is too many.")
+        raise NotDrawable(f"/map has {count} cells: that is too many.")
     corner = info.origin.position
     if not (all(map(math.isfinite, (info.resolution, corner.x, corner.y))) and info.resolution > 0):
-        raise NoMap("/map does not say where its cells are.")
+        raise NotDrawable("/map does not say where its cells are.")
     cells = np.asarray(grid.data).reshape(high, wide)
     walls = cells >= OCCUPIED
     row, column = np.nonzero(walls)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ros2_on_pip.interfaces import UnknownInterface, class_of
-from roslings_my_rover.drawn_room import DrawnRoom, NoMap, drawn_room
+from roslings_my_rover.drawn_room import DrawnRoom, NotDrawable, drawn_room
 from roslings_my_rover.mirror import Mirror
 from roslings_my_rover.silence import Silence, Silent
 from roslings_my_rover.wiring import (
@@ -262,7 +262,7 @@ class MyRover(DrivenRover):
     def _take_map(self, grid: Any) -> None:
         try:
             self.drawn, self.no_map = drawn_room(grid), ""
-        except NoMap as error:
+        except NotDrawable as error:
             self.drawn, self.no_map = None, str(error)
 
     def _take_odom(self, told: Any) -> None:
