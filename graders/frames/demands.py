@@ -226,7 +226,7 @@ def say_each_once(tf: TopicContract, walls: TopicContract) -> Demand[ExperimentV
         drive = _drive(experiment)
         # The evidence keeps how many steps a message has: see SIZES.
         if empty := sum(each.content == 0 for each in experiment.topic(tf).messages):
-            raise faults.SaysNothing(tf.topic, empty)
+            raise faults.StepsAreNone(tf.topic, empty)
         again = sum(max(0, scan.answers - 1) for scan in drive.scans)
         if drive.told_again:
             raise faults.ToldAgain(tf.topic, "odometry", drive.told_again)

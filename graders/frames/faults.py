@@ -307,7 +307,7 @@ class ToldAgain(Fault):
 
 
 @dataclass(eq=False)
-class SaysNothing(Fault):
+class StepsAreNone(Fault):
     """A message of steps holds none."""
 
     topic: str
