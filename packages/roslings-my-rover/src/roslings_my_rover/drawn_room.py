@@ -29,7 +29,6 @@ class DrawnRoom:
     """Cells in rows, the first row in the south."""
 
     frame: str
-    cell_m: float
     walls: Flags
     free: Flags
     walls_m: DrawnWalls
@@ -75,7 +74,6 @@ def drawn_room(grid: Any) -> DrawnRoom:
     )
     return DrawnRoom(
         grid.header.frame_id,
-        info.resolution,
         walls,
         (cells >= 0) & ~walls,
         DrawnWalls(*middles),
