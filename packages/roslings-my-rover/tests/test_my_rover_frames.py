@@ -112,6 +112,8 @@ def test_where_a_part_says_them_the_robot_is_silent() -> None:
     with looker_at(replace(RoverWiring(), says_frames=False)) as looker:
         looker.until(lambda: looker.node.count_publishers("/odom"))
         assert not looker.node.count_publishers("/tf")
+        looker.until(lambda: looker.buffer.can_transform("base_link", "camera_optical", Time()))
+        assert not looker.buffer.can_transform("base_link", "laser", Time())
         looker.rover.connect(RoverWiring())
         looker.until(lambda: looker.buffer.can_transform("odom", "laser", Time()))
         assert looker.node.count_publishers("/tf_static") == 1

@@ -25,7 +25,7 @@ from roslings_my_rover.wiring import (
 )
 from roslings_rover.models.differential_drive import Pose
 from roslings_rover.rover.driven import DrivenRover
-from roslings_rover.rover.frames import FrameOptions
+from roslings_rover.rover.frames import FrameOptions, camera_publisher
 from roslings_rover.rover.in_room import RoomRover
 from roslings_rover.rover.messages import ODOM_FRAME
 from roslings_rover.rover.room_node import RoomNode
@@ -53,6 +53,8 @@ class MyRover(DrivenRover):
     no_map: str = ""
     """Why the newest /map cannot be drawn."""
     _had_mapper: bool = False
+    _camera_frame: Any = field(default=None, init=False, repr=False)
+    """Says where the camera sits, while a part says the other frames."""
     _clash: str = ""
     _believed: Pose | None = None
     _status: HeardSentence | None = None
@@ -158,11 +160,22 @@ class MyRover(DrivenRover):
         )
 
     def _open_frames(self) -> None:
-        """A part that says them is their only publisher."""
+        """A part that says them is their only publisher, but for the camera: it knows of none."""
         if self.wiring.says_frames:
+            self._close_camera_frame()
             super()._open_frames()
         else:
             self._close_frames()
+            self._open_camera_frame()
+
+    def _open_camera_frame(self) -> None:
+        if self.frames.published and self._camera_frame is None:
+            self._camera_frame = camera_publisher(self._node)
+
+    def _close_camera_frame(self) -> None:
+        if self._camera_frame is not None:
+            self._node.destroy_publisher(self._camera_frame)
+            self._camera_frame = None
 
     def _close_links(self) -> None:
         for each in self._links:

@@ -6,7 +6,7 @@ each step is said by one node. The step from map to odom is said when it is aske
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -61,6 +61,21 @@ class FramePublishers:
 
 def frame_publishers(node: Any, map_frame: bool) -> FramePublishers | None:
     """Those of a rover's node, which have said what never moves; None where tf2_msgs is not."""
+    fixed = _said_once(node, mounted)
+    if fixed is None:
+        return None
+    from tf2_msgs.msg import TFMessage
+
+    return FramePublishers(node.create_publisher(TFMessage, TF, 100), fixed, map_frame)
+
+
+def camera_publisher(node: Any) -> Any | None:
+    """That of a node where another one says the rest; None where tf2_msgs is not."""
+    return _said_once(node, lambda stamp: [mounted_camera(stamp)])
+
+
+def _said_once(node: Any, steps: Callable[[Any], Iterable[Any]]) -> Any | None:
+    """A publisher that has said steps, and keeps them; None where tf2_msgs is not."""
     try:
         from tf2_msgs.msg import TFMessage
     except ImportError:
@@ -69,8 +84,8 @@ def frame_publishers(node: Any, map_frame: bool) -> FramePublishers | None:
 
     kept = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     fixed = node.create_publisher(TFMessage, TF_STATIC, kept)
-    fixed.publish(TFMessage(transforms=[*mounted(node.get_clock().now().to_msg())]))
-    return FramePublishers(node.create_publisher(TFMessage, TF, 100), fixed, map_frame)
+    fixed.publish(TFMessage(transforms=[*steps(node.get_clock().now().to_msg())]))
+    return fixed
 
 
 def mounted(stamp: Any) -> Iterator[Any]:
@@ -78,12 +93,17 @@ def mounted(stamp: Any) -> Iterator[Any]:
     laser = step_of(BODY_FRAME, LASER_FRAME, LASER_ON_BODY, stamp)
     laser.transform.translation.z = LASER_HEIGHT_M
     yield laser
+    yield mounted_camera(stamp)
+
+
+def mounted_camera(stamp: Any) -> Any:
+    """Where the camera sits on the rover, and where it looks."""
     model = PinholeCameraModel()
     camera = step_of(BODY_FRAME, CAMERA_FRAME, Pose(model.mounted_ahead_m), stamp)
     camera.transform.translation.z = model.height_m
     facing = camera.transform.rotation
     facing.x, facing.y, facing.z, facing.w = OPTICAL
-    yield camera
+    return camera
 
 
 def step_of(parent: str, child: str, place: Pose, stamp: Any) -> Any:
