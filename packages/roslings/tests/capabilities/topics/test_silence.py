@@ -8,6 +8,7 @@ from judge_messages import messages
 from ros2_on_pip.rates import NS_PER_S
 from roslings.capabilities.topics.demands import have_rate
 from roslings.capabilities.topics.faults.rhythm import FallsSilent
+from roslings.capabilities.topics.reasons import EndedInSilence
 from roslings.course import RateContract, TopicContract
 from roslings.evidence import Endpoint, ExperimentSeen, GraphSeen, ProcessSeen, Qos, TopicSeen
 from roslings.judge.faults import Inconclusive
@@ -52,6 +53,13 @@ def test_who_falls_silent_is_told_so() -> None:
 def test_other_silence_is_no_fault(view: ExperimentView) -> None:
     """The next message is not due yet; or the node's end is told elsewhere."""
     view.topic(CHATTER).must(have_rate(CHATTER))
+
+
+def test_who_is_late_at_the_end_is_watched_again() -> None:
+    """Two periods and a half may be the first of a silence; nobody has 100 for them."""
+    with pytest.raises(EndedInSilence) as told:
+        watched(1.3).topic(CHATTER).must(have_rate(CHATTER))
+    assert "due each 0.5 s, and the last one came 1.3 s before the end" in str(told.value)
 
 
 def test_a_computer_that_stood_still_tells_nothing() -> None:

@@ -1,4 +1,4 @@
-"""Eight messages, and then none: the node runs on."""
+"""Six messages, and then none: the node runs on."""
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
@@ -19,7 +19,7 @@ class Talker(Node):
         """One turn."""
         self.voice.publish(String(data=f"Hello robotics {self.count}"))
         self.count += 1
-        if self.count == 8:
+        if self.count == 6:
             self.timer.cancel()
 
 

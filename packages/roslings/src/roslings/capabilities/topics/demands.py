@@ -20,7 +20,7 @@ from roslings.capabilities.topics.faults.rhythm import (
     TooSlow,
     rate_fault,
 )
-from roslings.capabilities.topics.reasons import LostOnTheWay, NearTheLimits
+from roslings.capabilities.topics.reasons import EndedInSilence, LostOnTheWay, NearTheLimits
 from roslings.course import RateContract, TopicContract
 from roslings.course.files import written
 from roslings.judge.demands import require_believable, require_steady
@@ -30,6 +30,8 @@ from roslings.seen.rates import in_the_watch
 MOST_LOST_PART = 0.05
 SILENT_PERIODS = 3.5
 """Messages that do not come for so many periods: each timer of it has run three times meanwhile."""
+LATE_PERIODS = 2.0
+"""Who was silent for so long at the end of a watch may have stopped in it, or speak again."""
 
 
 def have_rate(contract: TopicContract) -> Demand[TopicView]:
@@ -42,11 +44,7 @@ def have_rate(contract: TopicContract) -> Demand[TopicView]:
         if rate is None:
             require_steady(topic.experiment.stall_s)
             raise NoMessages(topic.name, len(topic.messages), topic.experiment.watching_s)
-        silent_s = fell_silent_s(topic)
-        if silent_s > SILENT_PERIODS * rate.period_s:
-            require_steady(topic.experiment.stall_s)
-            count = len(in_the_watch(topic.messages, topic.experiment))
-            raise FallsSilent(topic.name, limit.hz, limit.within, rate, count, silent_s)
+        require_speaks_on(topic, rate, limit)
         kind = rate_fault(rate, limit.low_hz, limit.high_hz)
         if kind not in (Bursts, SentAgain):
             require_enough(topic, rate, limit)
@@ -58,6 +56,17 @@ def have_rate(contract: TopicContract) -> Demand[TopicView]:
             raise kind(topic.name, limit.hz, limit.within, rate)
 
     return demand
+
+
+def require_speaks_on(topic: TopicView, rate: Rate, limit: RateContract) -> None:
+    """It is not silent at the end of the watch. Raises FallsSilent and Inconclusive."""
+    silent_s = fell_silent_s(topic)
+    if silent_s > LATE_PERIODS * rate.period_s:
+        require_steady(topic.experiment.stall_s)
+        if silent_s <= SILENT_PERIODS * rate.period_s:
+            raise EndedInSilence(silent_s, rate.period_s)
+        count = len(in_the_watch(topic.messages, topic.experiment))
+        raise FallsSilent(topic.name, limit.hz, limit.within, rate, count, silent_s)
 
 
 def fell_silent_s(topic: TopicView) -> float:

@@ -54,6 +54,18 @@ class NearTheLimits(Inconclusive):
 
 
 @dataclass(eq=False)
+class EndedInSilence(Inconclusive):
+    """A message was late at the end of a watch: it may come, and it may never come."""
+
+    silent_s: float
+    period_s: float
+    text = (
+        "too little evidence: a message was due each {period_s:.2g} s, and the last one came"
+        " {silent_s:.1f} s before the end; check again"
+    )
+
+
+@dataclass(eq=False)
 class LostOnTheWay(Inconclusive):
     """This computer did not carry what was sent."""
 
