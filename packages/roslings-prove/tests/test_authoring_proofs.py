@@ -289,7 +289,7 @@ def test_message_types_that_are_built_anew_are_a_change_of_the_core(copy: Path) 
         ("roslings.capabilities.serial.act", {"serial-bridge"}),
         ("roslings.capabilities.camera.act", {"pi-camera"}),
         ("graders.e_stop.player", {"e-stop"}),
-        ("ros2_on_pip.launching.actions", {"distance-sensor", "bring-up"}),
+        ("ros2_on_pip.launching.actions", {"distance-sensor", "bring-up", "wander"}),
         ("ros2_on_pip.stand_ins.rosbag2_py._reader", {"black-box"}),
         ("graders.black_box.act", {"black-box"}),
         ("graders.pi_camera.projector", {"pi-camera"}),

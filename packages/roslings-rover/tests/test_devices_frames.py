@@ -183,7 +183,7 @@ class Looker:
         self.until(lambda: self._command(motion) or rover.way_m >= way_m, "it does not move")
         self.until(lambda: self._command(Motion()) or self._stands, "it goes on")
         now = self.node.get_clock().now()
-        self.until(lambda: self._newest > now, "its frames are old")
+        self.until(lambda: self._is_known and self._newest > now, "its frames are old")
 
     def _command(self, motion: Motion) -> None:
         said = self._twist()
@@ -194,6 +194,10 @@ class Looker:
     def _stands(self) -> bool:
         wheels = self.rover.rover.wheels
         return max(abs(wheels.left_rad_s), abs(wheels.right_rad_s)) < SLOW_RAD_S
+
+    @property
+    def _is_known(self) -> bool:
+        return bool(self.buffer.can_transform("odom", "base_link", Time()))
 
     @property
     def _newest(self) -> Any:
