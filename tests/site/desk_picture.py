@@ -139,7 +139,7 @@ SHOWN: dict[str, Callable[[Any, Carried], None]] = {
 def alt() -> str:
     """What the picture shows, in words."""
     *names, last = (name.capitalize() for name in BUILT_IN)
-    return f"The desk beside a rover of all ten days. Its tabs: {', '.join(names)} and {last}."
+    return f"The desk beside a rover of all twelve days. Its tabs: {', '.join(names)} and {last}."
 
 
 @contextmanager
