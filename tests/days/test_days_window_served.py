@@ -152,9 +152,11 @@ class Served:
         return re.match(rf"http://[^/]+{BELOW}", self.address)[0]  # type: ignore[index]
 
     def client(self) -> httpx.Client:
-        """A browser that came in by the address."""
+        """A browser that came in by the address: a page for strangers has no such cookie."""
         found = httpx.Client(follow_redirects=True, trust_env=False, timeout=120)
-        assert found.get(self.address).status_code == 200
+        came = found.get(self.address)
+        assert came.status_code == 200
+        assert any(name.startswith("username-") for name in found.cookies), came.text[:2000]
         return found
 
     def knocked(self, origin: str, cookies: str) -> int:
