@@ -1,8 +1,13 @@
 """Rooms that are fair: three designs have all points in each, along the wall on either side.
 
 The program `tests/lab_folders/wander/fair_rooms.py` has found them: it drove each design through
-each room. In another room a right node may lose its wall, or meet none.
+each room. In another room a right node may lose its wall, or meet none. In most rooms nothing that
+moves comes into the way; in the busy ones it does, along the wall on that side.
 """
+
+from collections.abc import Mapping
+
+from roslings.capabilities.rooms.record import Side
 
 FAIR: tuple[int, ...] = (
     1001,
@@ -112,3 +117,24 @@ FAIR: tuple[int, ...] = (
     1147,
     1148,
 )
+
+BUSY: Mapping[Side, tuple[int, ...]] = {
+    "left": (2002, 2027, 2032, 2047, 2066, 2085, 3000, 3093, 3099, 3100, 3106, 3119, 3131, 3143),
+    "right": (
+        2074,
+        2075,
+        2086,
+        2097,
+        3021,
+        3035,
+        3064,
+        3075,
+        3076,
+        3082,
+        3092,
+        3101,
+        3104,
+        3116,
+        3132,
+    ),
+}

@@ -3,6 +3,10 @@
 Prints the numbers for `graders/wander/fair.py`, as it finds them:
 
     .venv/bin/python tests/lab_folders/wander/fair_rooms.py 1000 1300
+    .venv/bin/python tests/lab_folders/wander/fair_rooms.py --busy 2000 2600
+
+With `--busy` those along one wall, with its side: there something that moves comes into the way of
+each design, and it has all points.
 """
 
 from __future__ import annotations
@@ -11,6 +15,7 @@ import argparse
 import math
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +29,7 @@ from sensor_msgs.msg import LaserScan  # noqa: E402
 
 from roslings.capabilities.rooms.record import Side  # noqa: E402
 from roslings.capabilities.rooms.seeds import SIDES, RoomToDrive  # noqa: E402
+from roslings.capabilities.rooms.seen import encounters  # noqa: E402
 
 
 class Solution:
@@ -60,14 +66,24 @@ def unfair_to(seed: int) -> Iterator[str]:
                 yield f"{name}, {side}: {', '.join(lost)}"
 
 
+def is_busy(seed: int, side: Side) -> bool:
+    """Each design meets something that moves along this wall, and loses no point."""
+    drives = (driven(RoomToDrive(seed, False, side), make(side)) for make in DESIGNS.values())
+    return all(encounters(drive) and not failed(view_of([drive])) for drive in drives)
+
+
 def main() -> None:
     """Look at each number between two."""
     words = argparse.ArgumentParser(description=__doc__)
+    words.add_argument("--busy", action="store_true")
     words.add_argument("first", type=int)
     words.add_argument("last", type=int)
     asked = words.parse_args()
     for seed in range(asked.first, asked.last + 1):
-        if told := next(unfair_to(seed), ""):
+        if asked.busy:
+            for side in filter(partial(is_busy, seed), SIDES):
+                print(seed, side, flush=True)
+        elif told := next(unfair_to(seed), ""):
             print(f"{seed}: {told}", file=sys.stderr, flush=True)
         else:
             print(seed, flush=True)

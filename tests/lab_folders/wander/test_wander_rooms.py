@@ -8,12 +8,12 @@ from random import sample
 import pytest
 from designs import Rule, Waiting, bang_bang, vector_field
 from driving import ROOMS, driven, failed, view_of
-from fair_rooms import unfair_to
+from fair_rooms import is_busy, unfair_to
 
 from graders.wander.act import rooms_to_drive
-from graders.wander.fair import FAIR
-from roslings.capabilities.rooms.record import RoomsSeen
-from roslings.capabilities.rooms.seeds import OWN, SECRET, BadRooms
+from graders.wander.fair import BUSY, FAIR
+from roslings.capabilities.rooms.record import RoomsSeen, Side
+from roslings.capabilities.rooms.seeds import OWN, SECRET, SIDES, BadRooms
 from roslings.capabilities.rooms.seen import encounters
 from roslings.judge import ExperimentView
 
@@ -79,9 +79,18 @@ def test_secret_rooms_are_fair_and_each_another_one(monkeypatch: pytest.MonkeyPa
     assert len(frozenset().union(*drawn) & {*FAIR}) > len(FAIR) * 0.8
 
 
-def test_no_room_is_twice_among_the_fair() -> None:
-    """It would be drawn twice as often."""
-    assert len({*FAIR}) == len(FAIR)
+def test_no_room_is_twice_among_them() -> None:
+    """It would be drawn twice as often, or driven twice in one grading."""
+    every = [*FAIR, *(seed for seeds in BUSY.values() for seed in seeds)]
+    assert len({*every}) == len(every)
+
+
+def test_along_each_wall_something_comes_into_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In secret rooms of an instructor, whatever the secret: stopping is judged in each grading."""
+    for secret in range(100):
+        monkeypatch.setenv(SECRET, str(secret))
+        rooms = rooms_to_drive(ROOMS, seed=1)
+        assert {room.side for room in rooms if room.seed in BUSY[room.side]} == {*SIDES}
 
 
 # --- designs -----------------------------------------------------------------------------------
@@ -117,3 +126,11 @@ def test_a_fair_room_is_fair(number: int) -> None:
     """Three designs have all points in it, along either wall: other rooms at each run."""
     (seed,) = sample(FAIR, 1)
     assert [*unfair_to(seed)] == [], f"{number}: room {seed}"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("side", SIDES)
+def test_a_busy_room_is_busy(side: Side) -> None:
+    """Something comes into the way of each design, and each has all points."""
+    (seed,) = sample(BUSY[side], 1)
+    assert is_busy(seed, side), f"room {seed}"

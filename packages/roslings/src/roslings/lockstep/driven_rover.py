@@ -58,6 +58,7 @@ class DrivenRoomRover:
         self.rover = RoomRover(room_of(plan.room), plan.noise_seed)
         self.ticks: list[DriveTick] = []
         self.refused = 0
+        self.stray = ""
         self.now_ns = begins_ns
         self._told_ns = begins_ns
 
@@ -69,6 +70,7 @@ class DrivenRoomRover:
     def obey(self, commands: Sequence[VelocityCommand]) -> None:
         """Follow each in turn; one that is no finite number is refused, and counted."""
         for command in commands:
+            self.stray = self.stray or command.stray
             try:
                 self.rover.drive(Motion(command.forward_m_s, command.turn_rad_s))
             except ValueError:
@@ -114,6 +116,7 @@ class DrivenRoomRover:
             ),
             sleepers=tuple(sleepers),
             refused_commands=self.refused,
+            stray=self.stray,
             way_m=self.rover.way_m,
             wall_s=wall_s,
         )

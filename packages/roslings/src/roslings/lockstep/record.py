@@ -15,6 +15,9 @@ class VelocityCommand(Frozen):
 
     forward_m_s: float
     turn_rad_s: float
+    stray: str = ""
+    """The first of the other fields that is not 0, as `linear.y is 1.0`: this rover has no use for
+    it."""
 
 
 class DriveTick(Frozen):
@@ -72,6 +75,8 @@ class LockstepDrive(Frozen):
     sleepers: tuple[SleeperSeen, ...] = ()
     refused_commands: int = 0
     """Those that were no finite numbers."""
+    stray: str = ""
+    """What the first command with one said in another field than those that drive the rover."""
     way_m: float = 0.0
     wall_s: float = 0.0
     """Of wall time, from the first tick to the last."""

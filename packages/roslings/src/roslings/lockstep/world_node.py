@@ -123,7 +123,11 @@ class WorldNode:
             while (taken := handle.take_message(self._subscription.msg_type, False)) is not None:
                 twist = taken[0]
                 found.append(
-                    VelocityCommand(forward_m_s=twist.linear.x, turn_rad_s=twist.angular.z)
+                    VelocityCommand(
+                        forward_m_s=twist.linear.x,
+                        turn_rad_s=twist.angular.z,
+                        stray=stray_field(twist),
+                    )
                 )
         return found
 
@@ -173,6 +177,18 @@ class WorldNode:
         yield until
         executor.remove_node(self._node)
         executor.shutdown()
+
+
+def stray_field(twist: Any) -> str:
+    """The first field of a Twist that is not 0, but for linear.x and angular.z; NaN is not."""
+    linear, angular = twist.linear, twist.angular
+    others = {
+        "linear.y": linear.y,
+        "linear.z": linear.z,
+        "angular.x": angular.x,
+        "angular.y": angular.y,
+    }
+    return next((f"{name} is {value:g}" for name, value in others.items() if value != 0), "")
 
 
 def _never_called(_: Any) -> None:

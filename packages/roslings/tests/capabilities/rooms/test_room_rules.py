@@ -81,6 +81,13 @@ WRONG = {
         "in room 17 your node lets the rover drive",
         "its commands on /cmd_vel were no finite numbers",
     ),
+    "another field": Wrong(
+        demands.drive_each,
+        drive(straight(150), stray="linear.y is nan"),
+        faults.SaysMoreThanItDrives,
+        "in room 17 all fields of a command are 0, but linear.x and angular.z",
+        "in one of its commands linear.y is nan",
+    ),
     "bumps": Wrong(
         TOUCHES,
         drive(straight(20), bumps=[bump(3.0), bump(9.0)]),
@@ -240,12 +247,14 @@ def test_a_busy_machine_is_nobodys_fault(demand: Demand) -> None:
         demand(seen(WRONG["bumps"].drive, machine_fault="so busy that a drive did not end"))
 
 
-def test_where_nothing_moved_nothing_is_said_of_stops() -> None:
-    """One encounter in all rooms is enough."""
+def test_where_nothing_moved_nothing_was_wrong() -> None:
+    """And it is told: the same rooms would be the same again."""
+    begin_remarks()
     alone = drive(straight(200))
-    with pytest.raises(NothingToJudge, match="in no room did something that moves"):
-        MEETS(seen(alone, alone))
     MEETS(seen(alone, ALL_WELL))
+    assert remarks() is None
+    MEETS(seen(alone, alone))
+    assert remarks() == "nothing that moves came into its way in these rooms"
 
 
 # --- by which clock ----------------------------------------------------------------------------

@@ -16,6 +16,7 @@ from roslings.capabilities.rooms.contract import (
     WallContract,
     rows,
 )
+from roslings.capabilities.rooms.record import Side
 from roslings.capabilities.rooms.seeds import (
     OWN,
     SECRET,
@@ -95,6 +96,14 @@ def test_an_instructors_secret_is_the_same_for_all(monkeypatch: pytest.MonkeyPat
     assert secret_rooms(ROOMS, 2) == one
     monkeypatch.setenv(SECRET, "pier")
     assert not {*seeds_of(one)} & {*seeds_of(secret_rooms(ROOMS, 1))}
+
+
+def test_busy_rooms_come_first_and_have_their_side() -> None:
+    """One of each side that is named, and none of them a second time."""
+    busy: dict[Side, list[int]] = {"right": [7], "left": [8]}
+    rooms = secret_rooms(ROOMS, 1, range(6, 11), busy)
+    assert [(room.seed, room.side) for room in rooms[:2]] == [(7, "right"), (8, "left")]
+    assert {*seeds_of(rooms)} == {*range(6, 11)}
 
 
 def test_secret_rooms_are_the_same_in_each_process(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,7 +13,12 @@ from functools import partial
 from ros2_on_pip.rates import LONGEST_STALL_S
 from roslings.capabilities.rooms import faults
 from roslings.capabilities.rooms.contract import StopBeforeContract, WallContract
-from roslings.capabilities.rooms.reasons import HeldUpInARoom, InRealTime, NothingDriven
+from roslings.capabilities.rooms.reasons import (
+    HeldUpInARoom,
+    InRealTime,
+    NothingDriven,
+    NothingInItsWay,
+)
 from roslings.capabilities.rooms.record import RoomDriveSeen, RoomsSeen
 from roslings.capabilities.rooms.seen import (
     Encounter,
@@ -35,6 +40,8 @@ NOTHING_AFTER_BUMPS = 2
 """So many bumps too many in a room, and no points are left of it."""
 NOTHING_AT_TIMES = 3.0
 """So many times as far from its wall as it may be, and no points are left of a room."""
+KEPT_BESIDE_A_STRAY = 0.5
+"""Of the points for a drive, where a command says more than the rover can do."""
 COMES_WITHIN = 0.5
 """It has come to its wall where it is first off by no more than this part of the distance."""
 
@@ -62,6 +69,10 @@ def drive_each(experiment: ExperimentView) -> None:
             return RoomJudged(0.0, faults.EndsInARoom(drive.seed, after_s, log=log))
         if not said_anything(drive):
             return RoomJudged(0.0, faults.NeverDrives(drive.seed, drive.refused_commands))
+        if drive.stray:
+            return RoomJudged(
+                KEPT_BESIDE_A_STRAY, faults.SaysMoreThanItDrives(drive.seed, drive.stray)
+            )
         return RIGHT
 
     _judge_each(experiment, judged)
@@ -142,12 +153,16 @@ def _share_at_its_wall(drive: RoomDriveSeen, wall: WallContract, found: WallDist
 
 
 def stop_before_what_moves(stops: StopBeforeContract) -> Demand[ExperimentView]:
-    """Whenever something that moves comes into its way, it stands in time."""
+    """Whenever something that moves comes into its way, it stands in time.
+
+    Who met nothing has done nothing wrong, and is told so: the same rooms would be the same again.
+    """
 
     def demand(experiment: ExperimentView) -> None:
         met = [(drive, each) for drive in _drives(experiment) for each in encounters(drive)]
         if not met:
-            raise NothingDriven("no_encounter")
+            remark(NothingInItsWay())
+            return
         wrong = [(drive, _drives_on(drive, each, stops.from_m)) for drive, each in met]
         _raise_first(
             [(drive, RoomJudged(0.0, fault) if fault else RIGHT) for drive, fault in wrong]
@@ -186,7 +201,7 @@ def _drives(experiment: ExperimentView) -> Iterator[RoomDriveSeen]:
     require_believable(experiment.seen)
     drives = experiment.seen.part(RoomsSeen).drives
     if not drives:
-        raise NothingDriven("no_drive")
+        raise NothingDriven
     yield from drives
 
 

@@ -47,6 +47,19 @@ class NeverDrives(Fault):
 
 
 @dataclass(eq=False)
+class SaysMoreThanItDrives(Fault):
+    """A command asks for what no rover with two wheels can do."""
+
+    room: int
+    stray: str
+    blocks = False
+    why = "On a robot that can drive sideways, the same node would do it."
+    expected = "in room {room} all fields of a command are 0, but linear.x and angular.z"
+    measured = "in one of its commands {stray}"
+    hint = "A rover with two wheels drives ahead and turns. Do you fill another field of the Twist?"
+
+
+@dataclass(eq=False)
 class BumpsIntoThings(Fault):
     """The rover ran into something."""
 

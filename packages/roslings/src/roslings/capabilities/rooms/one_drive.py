@@ -83,8 +83,10 @@ class DriveStage:
         with self.begun(room, simulated=True) as begun:
             pids = self._pids(begun)
             drive = self._beside(room, begun, pids, budget) if pids else _undriven(room, begun)
-            ended = drive.end == "a node ended"
-            return Driven(drive, self._noted(room, begun.process) if ended else "")
+            if drive.end == "a node ended":
+                return Driven(drive, self._noted(room, begun.process))
+        self._note_what_it_wrote(room, begun.process)
+        return Driven(drive)
 
     def in_real_time(self, room: RoomToDrive, begun: BegunDriver) -> Driven:
         """One drive by the wall clock, beside nodes that run already."""
@@ -130,9 +132,18 @@ class DriveStage:
         )
         return drive_beside(plan, begun.around, self.folder, self.called_off)
 
+    def _note_what_it_wrote(self, room: RoomToDrive, process: Process) -> None:
+        """Of a process that has ended as it should; most write nothing."""
+        if process.lines():
+            self._keep(room, process)
+
     def _noted(self, room: RoomToDrive, process: Process) -> str:
-        """Keep what it wrote and how it ended: under a name of its own, for it is one of many."""
+        """Keep what it wrote and how it ended."""
         process.wait_ended(ENDS_WITHIN_S)  # a launch goes on without its node
+        return self._keep(room, process)
+
+    def _keep(self, room: RoomToDrive, process: Process) -> str:
+        """Under a name of its own, for it is one of many."""
         label = f"{self.driver.label} in room {room.seed}"
         kept = process.seen.model_copy(update={"lines": process.lines()})
         self.scene.seen.processes[label] = kept

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 from roslings.capabilities.rooms.record import WhyWall
 from roslings.judge.faults.base import Inconclusive, NothingToJudge
@@ -14,16 +13,7 @@ from roslings.judge.faults.sentences import SentencePart, one_of
 class NothingDriven(NothingToJudge):
     """What this check looks at did not happen."""
 
-    what: Literal["no_drive", "no_encounter"]
-    text = one_of(
-        no_drive="no room was driven",
-        no_encounter="in no room did something that moves come into its way",
-    )
-
-    @property
-    def which_text(self) -> str:
-        """What it is."""
-        return self.what
+    text = "no room was driven"
 
 
 @dataclass(eq=False)
@@ -36,6 +26,13 @@ class HeldUpInARoom(Inconclusive):
         "room {room} was driven in real time, and this computer held the world or your node up for"
         " {held_s:.2f} s; close other programs and check again"
     )
+
+
+@dataclass(frozen=True)
+class NothingInItsWay(SentencePart):
+    """In no room did something that moves come before it."""
+
+    text = "nothing that moves came into its way in these rooms"
 
 
 @dataclass(frozen=True)

@@ -70,6 +70,9 @@ class RoomDriveSeen(Record):
     ticks: Columns[RoomTick] = Field(default_factory=list)
     bumps: Columns[RoomBump] = Field(default_factory=list)
     refused_commands: int = Field(default=0, description="They were no finite numbers")
+    stray: str = Field(
+        default="", description="A field of a command that is not 0, and drives no wheel"
+    )
     late_ticks: int = Field(default=0, description="A node still computed when the tick was over")
     stall_s: float = Field(default=0.0, description="In real time: so late the world was, at most")
     held_s: float = Field(

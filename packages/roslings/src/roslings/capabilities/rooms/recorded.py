@@ -71,6 +71,7 @@ def recorded(
             for each in drive.bumps
         ],
         refused_commands=drive.refused_commands,
+        stray=drive.stray,
         late_ticks=sum(each.late for each in drive.ticks),
         stall_s=_rounded(drive.stall_s),
     )

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from random import Random
+from types import MappingProxyType
 
 from roslings.capabilities.rooms.contract import RoomsContract
 from roslings.capabilities.rooms.record import Side
@@ -18,6 +19,7 @@ OWN = "ROSLINGS_ROOMS"
 SECRET = "ROSLINGS_ROOM_SECRET"
 """An environment variable: any text. Whoever has the same one gets the same secret rooms."""
 SIDES: tuple[Side, ...] = ("left", "right")
+NO_BUSY: Mapping[Side, Sequence[int]] = MappingProxyType({})
 
 
 class BadRooms(CourseError):
@@ -46,21 +48,28 @@ def own_rooms(contract: RoomsContract) -> list[RoomToDrive]:
 
 
 def secret_rooms(
-    contract: RoomsContract, secret: int | str, among: Sequence[int] = ()
+    contract: RoomsContract,
+    secret: int | str,
+    among: Sequence[int] = (),
+    busy: Mapping[Side, Sequence[int]] = NO_BUSY,
 ) -> list[RoomToDrive]:
     """As many as the card says: of the instructor's secret where there is one, else of this one.
 
     `among` are the rooms that may be taken, each one once; without it, each number is a room.
+    The first ones are `busy`: something moves into the way of who follows the wall on that side.
     Raises ValueError where there are too few.
 
     >>> secret_rooms(ROOMS, scene.seed)
     """
     base = os.environ.get(SECRET) or str(secret)
+    draw = Random(_number(f"rooms of {base}"))
+    first = [RoomToDrive(draw.choice(seeds), False, side) for side, seeds in busy.items()]
+    taken, count = {room.seed for room in first}, contract.secret - len(first)
     if among:
-        seeds = Random(_number(f"rooms of {base}")).sample(among, contract.secret)
+        seeds = draw.sample([n for n in among if n not in taken], count)
     else:
-        seeds = [_number(f"room {each} of {base}") for each in range(contract.secret)]
-    return [*_with_sides(seeds, chosen=False)]
+        seeds = [_number(f"room {each} of {base}") for each in range(count)]
+    return [*first, *_with_sides(seeds, chosen=False)]
 
 
 def _with_sides(seeds: Sequence[int], chosen: bool) -> Iterator[RoomToDrive]:
