@@ -57,6 +57,8 @@ class Found:
 
     checked: Checked
     drives: dict[str, list[RoomDriveSeen]]
+    wrote: dict[str, str]
+    """All that each process of the student's own rooms has written."""
 
     def outcome(self, name: str) -> dict[str, Any]:
         """Of one check."""
@@ -81,9 +83,12 @@ def found(folder: Path, rooms: str, *edits: tuple[str, str]) -> Found:
     shutil.rmtree(folder / "kept", ignore_errors=True)
     done = checked("pilot", package, "--evidence", "kept", folder=folder, env=environment)
     evidence = json.loads((folder / "kept/evidence.json").read_bytes())
-    parts = {name: seen["parts"].get("rooms") for name, seen in evidence["experiments"].items()}
+    experiments = evidence["experiments"]
+    parts = {name: seen["parts"].get("rooms") for name, seen in experiments.items()}
     return Found(
-        done, {name: RoomsSeen.model_validate(part).drives for name, part in parts.items() if part}
+        done,
+        {name: RoomsSeen.model_validate(part).drives for name, part in parts.items() if part},
+        {name: json.dumps(each["lines"]) for name, each in experiments["own"]["processes"].items()},
     )
 
 
@@ -110,6 +115,17 @@ def test_who_touches_is_told_where(tmp_path: Path) -> None:
     assert (touches["outcome"], touches["fault"]) == ("fail", "BumpsIntoThings")
     assert touches["fields"]["room"] == 17
     assert touches["fields"]["bumps"] == len(blind.drives["own"][0].bumps)
+
+
+def test_what_is_said_beside_the_drive_is_told_and_kept(tmp_path: Path) -> None:
+    """A field that drives no wheel costs those checks that look at the drive itself; and what the node wrote."""
+    more = "        command.angular.y = math.nan\n        print('I have looked', flush=True)\n"
+    told = found(tmp_path, "17", (SAYS, SAYS + more))
+    assert {each.stray for each in told.all} == {"angular.y is nan"}
+    failed = [each["id"] for each in told.checked.verdict["checks"] if each["outcome"] != "pass"]
+    assert failed == ["drives", "unseen", "launches"]
+    assert told.outcome("drives")["fault"] == "SaysMoreThanItDrives"
+    assert "I have looked" in told.wrote["pilot in room 17"]
 
 
 def test_who_sleeps_on_the_wall_clock_is_named_and_driven_in_real_time(tmp_path: Path) -> None:
