@@ -103,6 +103,9 @@ def test_what_nobody_can_tell_is_no_fault() -> None:
     commands = {f.operator for f in faults(lab("actions")) if f.kind == "sent"}
     assert "drop_first" not in commands
     assert "late" in commands
+    driven = {f.operator for f in faults(lab("wander")) if f.kind in ("sent", "heard")}
+    assert not driven & {"twice", "late", "gap", "of_before"}
+    assert driven >= {"negated", "nan", "drop_zeros", "stops_after"}
     kept = {f.operator for f in faults(lab("e-stop")) if (f.kind, f.at) == ("sent", "/e_stop")}
     assert "drop_first" in kept
 
