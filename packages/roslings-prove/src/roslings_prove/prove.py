@@ -9,13 +9,16 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from operator import itemgetter
 from pathlib import Path
 from typing import Protocol
 
+from roslings.capabilities.templates import told_classes
 from roslings.course import CourseError, Lab, Mutant
 from roslings.course.grader import Clock
 from roslings.experiment.run_folder import LOCK, run_folder
+from roslings.judge.faults import Fault
 from roslings.judge.sheet import dependants, explained
 from roslings_class.capacity import Capacity
 from roslings_class.gradebook import gradebook
@@ -183,7 +186,8 @@ class MutantPackage:
         checks = result.verdict.checks if result.verdict else ()
         failed = {check.id: check.fault for check in checks if check.outcome == "fail"}
         skipped = {check.id for check in checks if check.outcome == "skip"}
-        must_skip = dependants(self.lab, set(self.mutant.fails)) | set(self.mutant.skips)
+        blocking = {name for name, fault in failed.items() if fault not in lone_faults()}
+        must_skip = dependants(self.lab, blocking) | set(self.mutant.skips)
         if set(failed) != set(self.mutant.fails):
             return failing(result)
         if skipped - explained(self.lab, failed) != must_skip - explained(self.lab, failed):
@@ -191,6 +195,13 @@ class MutantPackage:
         wanted = self.mutant.faults
         other = {name: failed[name] for name, kind in wanted.items() if failed[name] != kind}
         return f"other faults: {other}" if other else ""
+
+
+@cache
+def lone_faults() -> frozenset[str]:
+    """Names of faults that keep no other check from being judged."""
+    told = (kind for kind in told_classes() if issubclass(kind, Fault))
+    return frozenset(kind.__name__ for kind in told if not kind.blocks)
 
 
 def injured(lab: Lab, mutant: Mutant, folder: Path) -> Path:
