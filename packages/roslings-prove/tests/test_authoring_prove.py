@@ -24,8 +24,8 @@ UNNAMED = Mutant(name="unnamed", what="No node.", fails=("talker_runs",))
 SOLUTION, STARTER = Solution(TOPICS), StarterPackage(TOPICS)
 
 
-def graded(**outcomes: CheckOutcome) -> GradingResult:
-    """A result where all other checks pass; what fails is too slow."""
+def graded(fault: str = "TooSlow", **outcomes: CheckOutcome) -> GradingResult:
+    """A result where all other checks pass; what fails is too slow, or has another fault."""
     checks = tuple(
         CheckResult(
             id=name,
@@ -33,7 +33,7 @@ def graded(**outcomes: CheckOutcome) -> GradingResult:
             outcome=(outcome := outcomes.get(name, "pass")),
             points=points if outcome == "pass" else 0,
             max_points=points,
-            fault="TooSlow" if outcome == "fail" else None,
+            fault=fault if outcome == "fail" else None,
             measured="1 Hz",
         )
         for name, points in TOPICS.card.points.items()
@@ -56,8 +56,9 @@ def graded(**outcomes: CheckOutcome) -> GradingResult:
         (SOLUTION, graded()),
         (STARTER, graded(text="fail")),
         (MutantPackage(TOPICS, SLOW), graded(rate="fail")),
+        (MutantPackage(TOPICS, UNNAMED), graded("EndedInTheSoak", talker_runs="fail")),
     ],
-    ids=["solution", "starter", "mutant"],
+    ids=["solution", "starter", "mutant", "a fault that keeps nothing from being judged"],
 )
 def test_what_must_come_of_it_is_a_proof(package: ProvenPackage, result: GradingResult) -> None:
     """The score of 100, no pass, the named checks."""
