@@ -118,7 +118,7 @@ def test_who_touches_is_told_where(tmp_path: Path) -> None:
 
 
 def test_what_is_said_beside_the_drive_is_told_and_kept(tmp_path: Path) -> None:
-    """A field that drives no wheel costs those checks that look at the drive itself; and what the node wrote."""
+    """A field that drives no wheel costs no check but of the drive; and what the node wrote."""
     more = "        command.angular.y = math.nan\n        print('I have looked', flush=True)\n"
     told = found(tmp_path, "17", (SAYS, SAYS + more))
     assert {each.stray for each in told.all} == {"angular.y is nan"}

@@ -53,7 +53,7 @@ class SaysMoreThanItDrives(Fault):
     room: int
     stray: str
     blocks = False
-    why = "On a robot that can drive sideways, the same node would do it."
+    why = "Some robots drive to the side, too: there the same node would let it happen."
     expected = "in room {room} all fields of a command are 0, but linear.x and angular.z"
     measured = "in one of its commands {stray}"
     hint = "A rover with two wheels drives ahead and turns. Do you fill another field of the Twist?"
