@@ -61,18 +61,13 @@ def graded(secret: str) -> GradingOfRooms:
         variables = {**os.environ, SECRET: secret}
         subprocess.run(words, env=variables, capture_output=True, check=False)
         took_s = time.monotonic() - began_s
-        return GradingOfRooms(
-            took_s,
-            read_json(verdict),
-            tuple(drives_in(evidence)),
-        )
+        return GradingOfRooms(took_s, read_json(verdict), tuple(drives_in(evidence)))
 
 
 def drives_in(evidence: Path) -> Iterator[RoomDriveSeen]:
     """All that were judged."""
     for seen in read_evidence(evidence, LAB).runs:
-        if isinstance(rooms := seen.parts.get(RoomsSeen.NAME), RoomsSeen):
-            yield from rooms.drives
+        yield from seen.part(RoomsSeen).drives
 
 
 def main(which: str, count: int) -> None:
@@ -83,10 +78,8 @@ def main(which: str, count: int) -> None:
         rooms = f"{each.in_lockstep} of {len(each.drives)} rooms in lockstep"
         print(f"{each.seconds:6.1f} s  {each.said:24} {rooms}", flush=True)
     most = Counter(each.said for each in gradings).most_common(1)[0][1]
-    believed, rooms_in_all = (
-        sum(each.in_lockstep for each in gradings),
-        sum(len(each.drives) for each in gradings),
-    )
+    believed = sum(each.in_lockstep for each in gradings)
+    rooms_in_all = sum(len(each.drives) for each in gradings)
     print(f"{believed} of {rooms_in_all} rooms in lockstep; the same verdict in {most} of {count}")
 
 

@@ -11,7 +11,7 @@ from roslings.judge.faults.sentences import SentencePart, one_of
 
 @dataclass(eq=False)
 class NothingDriven(NothingToJudge):
-    """What this check looks at did not happen."""
+    """No drive is there to look at."""
 
     text = "no room was driven"
 
